@@ -1,0 +1,1 @@
+# Joins the modules in the one library that is installed.

@@ -1,0 +1,91 @@
+// The pipeline of the paper: features, neighbours, votes, homographies, verification.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "posevote/core/options.hpp"
+#include "posevote/feature/features.hpp"
+#include "posevote/index/index.hpp"
+#include "posevote/model/model_set.hpp"
+
+namespace posevote {
+
+/// A pair of corresponding points that supports a detection.
+struct MatchedPoint {
+  cv::Point2f view;   ///< px of the taught picture
+  cv::Point2f scene;  ///< px of the scene
+};
+
+/// One physical instance of a taught object in the scene.
+struct Detection {
+  std::string object;
+  std::string view;                       ///< id of the taught view that explains it best
+  double confidence = 0;                  ///< Eq. 11: matched features / scene features in the area
+  double probability = 0;                 ///< calibrated probability that the detection is right
+  double log10_false_alarms = 0;          ///< log10 of the expected number of such accidents per image
+  int inliers = 0;                        ///< f_m of Eq. 11
+  int features_in_area = 0;               ///< f_t of Eq. 11
+  cv::Matx33d scene_from_view;            ///< homography, view px -> scene px, (2,2) = 1
+  std::vector<cv::Point2f> outline;       ///< the view's silhouette in the scene, px
+  cv::Rect2d box;                         ///< bounding box of the outline, not clipped, px
+  std::vector<std::string> alternatives;  ///< objects that the evidence cannot tell apart from it
+  std::vector<MatchedPoint> matches;      ///< the inliers
+};
+
+struct StageTimes {
+  double detect = 0, match = 0, vote = 0, verify = 0, total = 0;  ///< milliseconds
+};
+
+/// Numbers of features that survive each stage: the "# Key Points" of the paper's Table I.
+struct StageCounts {
+  int features = 0, matched = 0, clustered = 0, verified = 0;
+};
+
+struct RecognitionResult {
+  cv::Size image_size;
+  std::vector<Detection> detections;  ///< best first, each physical instance once
+  StageTimes time_ms;
+  StageCounts counts;
+};
+
+/// Everything that governs recognition; each stage's options are nested, never retyped.
+struct RecognizeOptions {
+  FeatureOptions feature;
+  IndexOptions index;
+  void describe(OptionList& list);
+};
+
+/// Names of the presets: "default", "paper", ...
+[[nodiscard]] std::vector<std::string> preset_names();
+
+/// Options of a preset; throws Error{invalid_argument} for a name that is none.
+[[nodiscard]] RecognizeOptions make_preset(const std::string& name);
+
+/// Finds taught objects in pictures. `recognize` is const and may be called from many threads while
+/// `set_models` swaps the objects; a running call finishes with those it began with.
+class Recognizer {
+ public:
+  /// Throws Error{invalid_argument} for options out of range and Error{feature_mismatch} when
+  /// `models` holds features of another kind than options.feature.
+  explicit Recognizer(std::shared_ptr<const ModelSet> models, const RecognizeOptions& options = {});
+  ~Recognizer();
+
+  /// `image` as in `Extractor::extract`. Nothing found is a result without detections.
+  [[nodiscard]] RecognitionResult recognize(const cv::Mat& image) const;
+
+  /// Recognition in given features of a scene of that size.
+  [[nodiscard]] RecognitionResult recognize(const Features& scene, cv::Size image_size) const;
+
+  void set_models(std::shared_ptr<const ModelSet> models);
+  [[nodiscard]] std::shared_ptr<const ModelSet> models() const;
+  [[nodiscard]] const RecognizeOptions& options() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace posevote

@@ -1,0 +1,27 @@
+#include <iostream>
+
+#include "command.hpp"
+
+namespace posevote::cli {
+
+void add_commands(CLI::App& app, CommandContext& context) {
+  static_cast<void>(app);
+  static_cast<void>(context);
+}
+
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,
+                      const std::string& examples) {
+  CLI::App* command = app.add_subcommand(name, description);
+  if (!examples.empty()) command->footer("Examples:\n" + examples);
+  return command;
+}
+
+void print_error(const std::string& sentence) {
+  std::cerr << "posevote: " << sentence << '\n';
+}
+
+void wrong_usage(const std::string& sentence) {
+  throw CLI::ValidationError(sentence, CLI::ExitCodes::ValidationError);
+}
+
+}  // namespace posevote::cli

@@ -14,17 +14,19 @@ namespace posevote {
 /// A scale- and rotation-covariant point. Pixel (0,0) is the centre of the top-left pixel, x right,
 /// y down, in the picture as it was given (never in a scaled copy).
 struct Keypoint {
-  float x = 0, y = 0;         ///< px
-  float scale = 0;            ///< sigma of the detecting filter, px, > 0
-  float angle = 0;            ///< radians in [-pi, pi), from +x towards +y (clockwise as seen)
-  float response = 0;         ///< strength; larger is better; comparable within one picture
-  std::int8_t laplacian = 0;  ///< +1 dark blob, -1 bright blob, 0 not known; opposite signs never match
+  float x = 0, y = 0;  ///< px
+  float scale = 0;     ///< sigma of the detecting filter, px, > 0
+  float angle = 0;     ///< radians in [-pi, pi), from +x towards +y (clockwise as seen)
+  float response = 0;  ///< strength; larger is better; comparable within one picture
+  std::int8_t laplacian =
+      0;  ///< +1 dark blob, -1 bright blob, 0 not known; opposite signs never match
 };
 
 /// Key points and one descriptor each, in one order.
 struct Features {
   std::vector<Keypoint> keypoints;
-  cv::Mat descriptors;  ///< keypoints.size() x D, CV_32F, continuous, rows of length 1; empty if none
+  cv::Mat
+      descriptors;  ///< keypoints.size() x D, CV_32F, continuous, rows of length 1; empty if none
 
   [[nodiscard]] std::size_t size() const noexcept { return keypoints.size(); }
   [[nodiscard]] bool empty() const noexcept { return keypoints.empty(); }
@@ -76,8 +78,8 @@ class Extractor {
 /// build without it.
 [[nodiscard]] std::shared_ptr<const Extractor> make_extractor(const FeatureOptions& options = {});
 
-/// 8-bit grey of any picture that `Extractor::extract` takes; shares the data where nothing changes.
-/// 16-bit pictures are scaled by 1/256; alpha is ignored.
+/// 8-bit grey of any picture that `Extractor::extract` takes; shares the data where nothing
+/// changes. 16-bit pictures are scaled by 1/256; alpha is ignored.
 [[nodiscard]] cv::Mat to_grey(const cv::Mat& image);
 
 }  // namespace posevote

@@ -11,9 +11,9 @@ namespace posevote {
 
 /// A taught descriptor near a scene descriptor.
 struct Neighbor {
-  int view = -1;      ///< index into ModelSet::views(); -1: a feature of the impostor pool
-  int feature = -1;   ///< index into the view's features (or into the pool, counted through)
-  float distance = 0; ///< Euclidean, descriptors have length 1, so in [0, 2]
+  int view = -1;       ///< index into ModelSet::views(); -1: a feature of the impostor pool
+  int feature = -1;    ///< index into the view's features (or into the pool, counted through)
+  float distance = 0;  ///< Euclidean, descriptors have length 1, so in [0, 2]
 };
 
 struct IndexOptions {
@@ -33,8 +33,8 @@ class Index {
                                                                   int k) const = 0;
 };
 
-/// Indexes all features of `models`, which is kept alive. Descriptors of views that `previous` holds
-/// already (the same View object) are not prepared again.
+/// Indexes all features of `models`, which is kept alive. Descriptors of views that `previous`
+/// holds already (the same View object) are not prepared again.
 [[nodiscard]] std::shared_ptr<const Index> make_index(std::shared_ptr<const ModelSet> models,
                                                       const IndexOptions& options = {},
                                                       const Index* previous = nullptr);

@@ -1,0 +1,136 @@
+#include "posevote/feature/surf/surf_extractor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "posevote/feature/made_pictures.hpp"
+
+namespace posevote {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Where the features of `view` are found again in `scene`, when scene = warped(view) by a
+// similarity.
+struct Followed {
+  int asked = 0, repeated = 0, alike = 0;
+};
+
+double angle_between(double a, double b) {
+  return std::abs(std::remainder(a - b, 2 * kPi));
+}
+
+Followed follow(const Features& view, const Features& scene, const cv::Matx23d& warp,
+                cv::Size size) {
+  const double zoom = std::hypot(warp(0, 0), warp(1, 0));
+  const double turn = std::atan2(warp(1, 0), warp(0, 0));
+  Followed result;
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    const Keypoint& point = view.keypoints[i];
+    const cv::Vec2d at = warp * cv::Vec3d(point.x, point.y, 1);
+    const double margin = 20 * point.scale * zoom;
+    if (at[0] < margin || at[1] < margin || at[0] > size.width - margin ||
+        at[1] > size.height - margin)
+      continue;
+    ++result.asked;
+    bool repeated = false, alike = false;
+    for (std::size_t k = 0; k < scene.size(); ++k) {
+      const Keypoint& other = scene.keypoints[k];
+      const double scale = point.scale * zoom;
+      if (std::hypot(other.x - at[0], other.y - at[1]) > 0.5 * scale ||
+          std::abs(std::log2(other.scale / scale)) > 0.35 || other.laplacian != point.laplacian)
+        continue;
+      repeated = true;
+      alike |= angle_between(other.angle, point.angle + turn) < 0.2 &&
+               cv::norm(view.descriptors.row(static_cast<int>(i)),
+                        scene.descriptors.row(static_cast<int>(k))) < 0.35;
+    }
+    result.repeated += repeated;
+    result.alike += alike;
+  }
+  return result;
+}
+
+class Warp : public testing::TestWithParam<std::tuple<double, double>> {};
+
+TEST_P(Warp, FeaturesFollowASimilarity) {
+  const auto [degrees, zoom] = GetParam();
+  const cv::Mat view = made::texture(320, 320);
+  const cv::Size size(560, 560);
+  cv::Mat warp = cv::getRotationMatrix2D({160, 160}, degrees, zoom);
+  warp.at<double>(0, 2) += 120.4;
+  warp.at<double>(1, 2) += 119.7;
+  cv::Mat scene;
+  cv::warpAffine(view, scene, warp, size, cv::INTER_CUBIC, cv::BORDER_REFLECT);
+
+  FeatureOptions options;
+  options.max_features = 300;
+  const auto from = make_extractor(options)->extract(view);
+  options.max_features = 0;
+  const auto found = follow(from, make_extractor(options)->extract(scene), warp, size);
+  ASSERT_GT(found.asked, 80);
+  EXPECT_GT(found.repeated, found.asked * 0.7);
+  EXPECT_GT(found.alike, found.repeated * 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Similarities, Warp,
+                         testing::Values(std::tuple(0.0, 1.0), std::tuple(90.0, 1.0),
+                                         std::tuple(180.0, 1.0), std::tuple(17.0, 1.0),
+                                         std::tuple(-45.0, 1.0), std::tuple(0.0, 1.5),
+                                         std::tuple(0.0, 0.8), std::tuple(130.0, 1.3)));
+
+TEST(Surf, UprightLeavesTheAngleAtZero) {
+  FeatureOptions options;
+  options.surf.upright = true;
+  const auto features = make_extractor(options)->extract(made::texture(160, 120));
+  ASSERT_FALSE(features.empty());
+  for (const Keypoint& point : features.keypoints) EXPECT_EQ(point.angle, 0);
+}
+
+TEST(Surf, OrientationPointsUpTheGradient) {
+  // A spot on a ramp: away from the spot's own symmetric gradients only the ramp is left.
+  for (const double degrees : {0.0, 60.0, 135.0, 180.0, 200.0, 300.0}) {
+    cv::Mat picture = made::spot(160, 160, 80, 80, 4, true);
+    picture.convertTo(picture, CV_8U, 0.2, 100);
+    for (int y = 0; y < picture.rows; ++y)
+      for (int x = 0; x < picture.cols; ++x) {
+        const double ramp =
+            std::cos(degrees * kPi / 180) * (x - 80) + std::sin(degrees * kPi / 180) * (y - 80);
+        auto& pixel = picture.at<std::uint8_t>(y, x);
+        pixel = cv::saturate_cast<std::uint8_t>(pixel + ramp);
+      }
+    FeatureOptions options;
+    options.max_features = 1;
+    const auto features = make_extractor(options)->extract(picture);
+    ASSERT_EQ(features.size(), 1U);
+    EXPECT_LT(angle_between(features.keypoints[0].angle, degrees * kPi / 180), 0.25) << degrees;
+  }
+}
+
+TEST(Surf, NegativePictureTurnsTheSign) {
+  const cv::Mat picture = made::texture(160, 120);
+  const auto extractor = make_extractor(FeatureOptions{});
+  const auto positive = extractor->extract(picture);
+  const auto negative = extractor->extract(255 - picture);
+  ASSERT_EQ(positive.size(), negative.size());
+  for (std::size_t i = 0; i < positive.size(); ++i)
+    EXPECT_EQ(positive.keypoints[i].laplacian, -negative.keypoints[i].laplacian);
+}
+
+TEST(Surf, BrightnessAndContrastHardlyChangeTheDescriptors) {
+  const cv::Mat picture = made::texture(240, 180);
+  cv::Mat pale;
+  picture.convertTo(pale, CV_8U, 0.5, 90);
+  FeatureOptions options;
+  options.max_features = 150;
+  const auto strong = make_extractor(options)->extract(picture);
+  options.max_features = 0;
+  const auto weak = make_extractor(options)->extract(pale);
+  const auto found = follow(strong, weak, cv::Matx23d(1, 0, 0, 0, 1, 0), picture.size());
+  ASSERT_GT(found.asked, 10);
+  EXPECT_GE(found.alike, found.asked * 0.95);
+}
+
+}  // namespace
+}  // namespace posevote

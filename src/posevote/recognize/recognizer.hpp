@@ -9,7 +9,11 @@
 #include "posevote/core/options.hpp"
 #include "posevote/feature/features.hpp"
 #include "posevote/index/index.hpp"
+#include "posevote/match/matcher.hpp"
 #include "posevote/model/model_set.hpp"
+#include "posevote/verify/paper_rule.hpp"
+#include "posevote/verify/verifier.hpp"
+#include "posevote/vote/hough.hpp"
 
 namespace posevote {
 
@@ -22,15 +26,15 @@ struct MatchedPoint {
 /// One physical instance of a taught object in the scene.
 struct Detection {
   std::string object;
-  std::string view;                       ///< id of the taught view that explains it best
-  double confidence = 0;                  ///< Eq. 11: matched features / scene features in the area
-  double probability = 0;                 ///< calibrated probability that the detection is right
-  double log10_false_alarms = 0;          ///< log10 of the expected number of such accidents per image
-  int inliers = 0;                        ///< f_m of Eq. 11
-  int features_in_area = 0;               ///< f_t of Eq. 11
-  cv::Matx33d scene_from_view;            ///< homography, view px -> scene px, (2,2) = 1
-  std::vector<cv::Point2f> outline;       ///< the view's silhouette in the scene, px
-  cv::Rect2d box;                         ///< bounding box of the outline, not clipped, px
+  std::string view;                  ///< id of the taught view that explains it best
+  double confidence = 0;             ///< Eq. 11: matched features / scene features in the area
+  double probability = 0;            ///< calibrated probability that the detection is right
+  double log10_false_alarms = 0;     ///< log10 of the expected number of such accidents per image
+  int inliers = 0;                   ///< f_m of Eq. 11
+  int features_in_area = 0;          ///< f_t of Eq. 11
+  cv::Matx33d scene_from_view;       ///< homography, view px -> scene px, (2,2) = 1
+  std::vector<cv::Point2f> outline;  ///< the view's silhouette in the scene, px
+  cv::Rect2d box;                    ///< bounding box of the outline, not clipped, px
   std::vector<std::string> alternatives;  ///< objects that the evidence cannot tell apart from it
   std::vector<MatchedPoint> matches;      ///< the inliers
 };
@@ -53,8 +57,15 @@ struct RecognitionResult {
 
 /// Everything that governs recognition; each stage's options are nested, never retyped.
 struct RecognizeOptions {
+  std::string rule = "a-contrario";  ///< "a-contrario" or "paper": how hypotheses are accepted
   FeatureOptions feature;
   IndexOptions index;
+  MatchOptions match;
+  VoteOptions vote;
+  VerifyOptions verify;
+  PaperOptions paper;
+  int max_hypotheses = 400;  ///< clusters looked at per scene, strongest first
+  double max_overlap = 0.4;  ///< intersection over union of two detections of one object
   void describe(OptionList& list);
 };
 

@@ -1,0 +1,230 @@
+#include "posevote/recognize/recognizer.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <set>
+
+#include "posevote/core/error.hpp"
+#include "posevote/recognize/compete.hpp"
+
+namespace posevote {
+namespace {
+
+/// Milliseconds since it was made or last read.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
+    start_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+template <class Get, class Items>
+int count_distinct(const Items& items, Get&& scene_feature_of) {
+  std::set<int> distinct;
+  for (const auto& item : items) distinct.insert(scene_feature_of(item));
+  return static_cast<int>(distinct.size());
+}
+
+int count_clustered(const std::vector<PoseCluster>& clusters, const std::vector<Match>& matches) {
+  std::set<int> distinct;
+  for (const auto& cluster : clusters)
+    for (const int m : cluster.matches) distinct.insert(matches[static_cast<std::size_t>(m)].scene);
+  return static_cast<int>(distinct.size());
+}
+
+/// Most of the cluster is explained by a pose of the same view that was found already.
+bool is_explained(const PoseCluster& cluster, const std::vector<Hypothesis>& found,
+                  const std::vector<Match>& matches) {
+  return std::ranges::any_of(found, [&](const Hypothesis& hypothesis) {
+    if (hypothesis.view != cluster.view || !hypothesis.rejected.empty()) return false;
+    std::size_t common = 0;
+    for (const int m : cluster.matches)
+      common += std::ranges::count(hypothesis.evidence.inliers,
+                                   matches[static_cast<std::size_t>(m)].scene, &Match::scene) > 0;
+    return 2 * common > cluster.matches.size();
+  });
+}
+
+std::vector<Hypothesis> verify_all(const std::vector<PoseCluster>& clusters,
+                                   const SceneContext& scene, const RecognizeOptions& options) {
+  std::vector<Hypothesis> found;
+  int looked_at = 0;
+  for (const PoseCluster& cluster : clusters) {
+    if (looked_at == options.max_hypotheses) break;
+    if (is_explained(cluster, found, scene.matches)) continue;
+    ++looked_at;
+    found.push_back(verify_cluster(cluster, scene, options.verify));
+  }
+  return found;
+}
+
+/// Right detections per detection over the false-alarm count, fitted to the development sets.
+double probability_of(double log10_false_alarms) {
+  return 1 / (1 + std::pow(10.0, std::clamp(log10_false_alarms, -12.0, 12.0)));
+}
+
+Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
+  const auto& entry = scene.models.views()[static_cast<std::size_t>(hypothesis.view)];
+  Detection detection;
+  detection.object = scene.models.name_of_view(hypothesis.view);
+  detection.view = entry.view->id;
+  detection.inliers = static_cast<int>(hypothesis.evidence.inliers.size());
+  detection.features_in_area = std::max(features_in_area(hypothesis, scene), detection.inliers);
+  detection.confidence = detection.features_in_area > 0
+                             ? static_cast<double>(detection.inliers) / detection.features_in_area
+                             : 0;
+  detection.log10_false_alarms = hypothesis.log10_false_alarms;
+  detection.probability = probability_of(hypothesis.log10_false_alarms);
+  detection.scene_from_view = hypothesis.scene_from_view;
+  detection.outline = transform_polygon(hypothesis.scene_from_view, entry.view->outline);
+  const cv::Rect2f box = cv::boundingRect(detection.outline);
+  detection.box = box;
+  for (const Match& match : hypothesis.evidence.inliers) {
+    const Keypoint& v = entry.view->features.keypoints[static_cast<std::size_t>(match.feature)];
+    const Keypoint& s = scene.grid.features().keypoints[static_cast<std::size_t>(match.scene)];
+    detection.matches.push_back({{v.x, v.y}, {s.x, s.y}});
+  }
+  return detection;
+}
+
+}  // namespace
+
+void RecognizeOptions::describe(OptionList& list) {
+  list.add("rule", rule, {"a-contrario", "paper"},
+           "How a hypothesis is accepted: by its number of false alarms, or by the paper's rule.");
+  list.add("max_hypotheses", max_hypotheses, {1, 1000000}, "",
+           "Clusters of votes looked at per picture, strongest first.");
+  list.add("max_overlap", max_overlap, {0, 1}, "",
+           "Overlap (intersection over union) beyond which two detections of one object are one.");
+  list.group("feature", feature);
+  list.group("index", index);
+  list.group("match", match);
+  list.group("vote", vote);
+  list.group("verify", verify);
+  list.group("paper", paper);
+}
+
+std::vector<std::string> preset_names() {
+  return {"default", "paper"};
+}
+
+RecognizeOptions make_preset(const std::string& name) {
+  RecognizeOptions options;
+  if (name == "default") return options;
+  if (name == "paper") {
+    options.rule = "paper";
+    options.vote.grid = "image";
+    options.vote.min_votes = 5;
+    options.match.max_ratio = 0.8;
+    return options;
+  }
+  const std::string nearest = nearest_word(name, preset_names());
+  throw Error(ErrorCode::invalid_argument,
+              "there is no preset '" + name + "'; presets are default and paper" +
+                  (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
+struct Recognizer::State {
+  struct Snapshot {
+    std::shared_ptr<const ModelSet> models;
+    std::shared_ptr<const Index> index;
+  };
+
+  RecognizeOptions options;
+  std::shared_ptr<const Extractor> extractor;
+  std::atomic<std::shared_ptr<const Snapshot>> snapshot;
+
+  RecognitionResult run(const Snapshot& now, const Features& scene, cv::Size size) const;
+};
+
+RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& scene,
+                                         cv::Size size) const {
+  RecognitionResult result;
+  result.image_size = size;
+  result.counts.features = static_cast<int>(scene.size());
+  Stopwatch watch;
+
+  const ModelSet& models = *now.models;
+  const Neighborhood neighborhood(now.index->search(scene, options.match.neighbors), models);
+  const auto matches = match_features(neighborhood, models, options.match);
+  result.counts.matched = count_distinct(matches, [](const Match& m) { return m.scene; });
+  result.time_ms.match = watch.lap();
+
+  const auto clusters = cluster_votes(matches, scene, size, models, options.vote);
+  result.counts.clustered = count_clustered(clusters, matches);
+  result.time_ms.vote = watch.lap();
+
+  const SceneGrid grid(scene, size);
+  const SceneContext context{models, neighborhood, grid, matches};
+  auto hypotheses = options.rule == "paper"
+                        ? apply_paper_rule(clusters, context, options.paper)
+                        : compete(verify_all(clusters, context, options), context, options);
+  std::erase_if(hypotheses, [](const Hypothesis& h) { return !h.rejected.empty(); });
+  for (const auto& hypothesis : hypotheses) {
+    result.detections.push_back(describe(hypothesis, context));
+    result.counts.verified += result.detections.back().inliers;
+  }
+  if (options.rule == "paper")
+    std::ranges::stable_sort(result.detections, std::ranges::greater(), &Detection::confidence);
+  result.time_ms.verify = watch.lap();
+  return result;
+}
+
+Recognizer::Recognizer(std::shared_ptr<const ModelSet> models, const RecognizeOptions& options)
+    : state_(std::make_unique<State>()) {
+  validate_options(options);
+  state_->options = options;
+  state_->extractor = make_extractor(options.feature);
+  set_models(std::move(models));
+}
+
+Recognizer::~Recognizer() = default;
+
+RecognitionResult Recognizer::recognize(const cv::Mat& image) const {
+  Stopwatch watch;
+  const Features scene = state_->extractor->extract(image);
+  const double detect_ms = watch.lap();
+  RecognitionResult result = recognize(scene, image.size());
+  result.time_ms.detect = detect_ms;
+  result.time_ms.total = detect_ms + watch.lap();
+  return result;
+}
+
+RecognitionResult Recognizer::recognize(const Features& scene, cv::Size image_size) const {
+  Stopwatch watch;
+  const auto now = state_->snapshot.load();
+  RecognitionResult result = state_->run(*now, scene, image_size);
+  result.time_ms.total = watch.lap();
+  return result;
+}
+
+void Recognizer::set_models(std::shared_ptr<const ModelSet> models) {
+  if (!models->views().empty() && models->signature() != state_->options.feature.signature())
+    throw Error(ErrorCode::feature_mismatch, "the objects hold features '" + models->signature() +
+                                                 "' but recognition uses '" +
+                                                 state_->options.feature.signature() +
+                                                 "'; choose the same kind or rebuild them");
+  const auto before = state_->snapshot.load();
+  auto index = make_index(models, state_->options.index, before ? before->index.get() : nullptr);
+  state_->snapshot.store(std::make_shared<const State::Snapshot>(
+      State::Snapshot{std::move(models), std::move(index)}));
+}
+
+std::shared_ptr<const ModelSet> Recognizer::models() const {
+  return state_->snapshot.load()->models;
+}
+
+const RecognizeOptions& Recognizer::options() const noexcept {
+  return state_->options;
+}
+
+}  // namespace posevote

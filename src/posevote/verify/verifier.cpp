@@ -1,0 +1,174 @@
+#include "posevote/verify/verifier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace posevote {
+namespace {
+
+const View& view_of(const SceneContext& scene, int view) {
+  return *scene.models.views()[static_cast<std::size_t>(view)].view;
+}
+
+PointPair points_of(const SceneContext& scene, const Match& match) {
+  const Keypoint& v =
+      view_of(scene, match.view).features.keypoints[static_cast<std::size_t>(match.feature)];
+  const Keypoint& s = scene.grid.features().keypoints[static_cast<std::size_t>(match.scene)];
+  return {{v.x, v.y}, {s.x, s.y}};
+}
+
+std::vector<PointPair> points_of(const SceneContext& scene, const std::vector<Match>& matches) {
+  std::vector<PointPair> pairs;
+  pairs.reserve(matches.size());
+  for (const Match& match : matches) pairs.push_back(points_of(scene, match));
+  return pairs;
+}
+
+double view_size(const View& view) {
+  return std::sqrt(std::max(1.0, cv::boundingRect(view.outline).area() * 1.0));
+}
+
+/// Size of the object in the scene, px.
+double scene_size_of(const View& view, const cv::Matx33d& scene_from_view) {
+  const double scale = std::abs(cv::determinant(local_jacobian(scene_from_view, view.centre)));
+  return view_size(view) * std::sqrt(scale);
+}
+
+/// The cluster's matches, each scene feature and each view feature once, best ratio first.
+std::vector<Match> one_to_one(const PoseCluster& cluster, const std::vector<Match>& matches) {
+  std::vector<Match> sorted;
+  for (const int m : cluster.matches) sorted.push_back(matches[static_cast<std::size_t>(m)]);
+  std::ranges::stable_sort(sorted, {}, &Match::ratio);
+  std::vector<Match> kept;
+  for (const Match& match : sorted)
+    if (std::ranges::none_of(kept, [&](const Match& other) {
+          return other.scene == match.scene || other.feature == match.feature;
+        }))
+      kept.push_back(match);
+  return kept;
+}
+
+/// Sum of truncated squared errors (MSAC, Torr & Zisserman 2000); smaller is better.
+double msac_cost(const cv::Matx33d& transform, const std::vector<PointPair>& pairs, double limit) {
+  double cost = 0;
+  for (const auto& pair : pairs) {
+    const cv::Point2f error = transform_point(transform, pair.view) - pair.scene;
+    cost += std::min(limit * limit, static_cast<double>(error.dot(error)));
+  }
+  return cost;
+}
+
+/// The similarity through two of the pairs on which most of the others agree. The pairs come best
+/// first, so trying all couples of the first few is a deterministic PROSAC (Chum & Matas 2005).
+cv::Matx33d propose_similarity(const std::vector<PointPair>& pairs, double object_size,
+                               const EvidenceOptions& options) {
+  constexpr std::size_t kFirst = 24;
+  const double limit = options.tolerance_px(TransformKind::similarity, object_size);
+  cv::Matx33d best = cv::Matx33d::zeros();
+  double best_cost = limit * limit * static_cast<double>(pairs.size());
+  const std::size_t count = std::min(pairs.size(), kFirst);
+  for (std::size_t i = 0; i + 1 < count; ++i)
+    for (std::size_t j = i + 1; j < count; ++j) {
+      if (cv::norm(pairs[i].scene - pairs[j].scene) < 2 * limit) continue;
+      const auto candidate = fit_transform(TransformKind::similarity, {pairs[i], pairs[j]});
+      const double cost = msac_cost(candidate, pairs, limit);
+      if (cost >= best_cost) continue;
+      best = candidate;
+      best_cost = cost;
+    }
+  return best;
+}
+
+double log10_trials(TransformKind kind, const SceneContext& scene, double size, double tolerance) {
+  return std::log10(static_cast<double>(scene.models.views().size())) +
+         log10_pose_count(kind, scene.grid.size(), size, tolerance);
+}
+
+/// Evidence of a given pose, with its number of false alarms.
+Hypothesis judge(int view, TransformKind kind, const cv::Matx33d& transform,
+                 const SceneContext& scene, const std::vector<char>& taken,
+                 const VerifyOptions& options, double widen = 1) {
+  Hypothesis result;
+  result.view = view;
+  result.kind = kind;
+  result.scene_from_view = transform;
+  const double size = scene_size_of(view_of(scene, view), transform);
+  result.tolerance_px = static_cast<float>(widen) * options.evidence.tolerance_px(kind, size);
+  result.evidence = gather_evidence(transform, result.tolerance_px, view, scene.models, scene.grid,
+                                    scene.neighborhood, taken, options.evidence);
+  result.log10_false_alarms =
+      result.evidence.log10_chance + log10_trials(kind, scene, size, result.tolerance_px);
+  return result;
+}
+
+/// Fits and gathers in turn, from a wider to the final tolerance.
+Hypothesis refine(Hypothesis start, TransformKind kind, const SceneContext& scene,
+                  const VerifyOptions& options) {
+  Hypothesis current = std::move(start);
+  for (const double widen : {1.5, 1.0, 1.0}) {
+    const auto transform = fit_transform(kind, points_of(scene, current.evidence.inliers));
+    const View& view = view_of(scene, current.view);
+    current.rejected = why_implausible(transform, view.outline, options.plausibility);
+    if (!current.rejected.empty()) return current;
+    current = judge(current.view, kind, transform, scene, {}, options, widen);
+  }
+  return current;
+}
+
+void decide(Hypothesis& hypothesis, const VerifyOptions& options) {
+  if (!hypothesis.rejected.empty()) return;
+  const int inliers = static_cast<int>(hypothesis.evidence.inliers.size());
+  if (inliers < options.min_inliers)
+    hypothesis.rejected = "only " + std::to_string(inliers) + " features agree on a pose";
+  else if (hypothesis.log10_false_alarms > std::log10(options.false_alarms_per_1000_images / 1000))
+    hypothesis.rejected = "so much agreement happens by chance";
+}
+
+}  // namespace
+
+void VerifyOptions::describe(OptionList& list) {
+  list.add("false_alarms_per_1000_images", false_alarms_per_1000_images, {1e-9, 1e6}, "",
+           "The dial: how many false detections in 1000 pictures are acceptable.");
+  list.add("min_inliers", min_inliers, {3, 1000}, "", "Fewest features that make a detection.");
+  list.group("evidence", evidence);
+  list.group("plausibility", plausibility);
+}
+
+Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
+                          const VerifyOptions& options) {
+  Hypothesis best;
+  best.view = cluster.view;
+  const View& view = view_of(scene, cluster.view);
+  const auto pairs = points_of(scene, one_to_one(cluster, scene.matches));
+  const double expected_size = view_size(view) * cluster.pose.scale;
+  const auto proposal = propose_similarity(pairs, expected_size, options.evidence);
+  best.rejected = why_implausible(proposal, view.outline, options.plausibility);
+  if (!best.rejected.empty()) return best;
+
+  best = judge(cluster.view, TransformKind::similarity, proposal, scene, {}, options);
+  // Refinement gains a few matches, not dozens: what is far from the goal now is given up.
+  constexpr double kHopeless = 6;
+  if (best.log10_false_alarms > kHopeless) {
+    best.rejected = "so much agreement happens by chance";
+    return best;
+  }
+  for (const auto kind :
+       {TransformKind::similarity, TransformKind::affine, TransformKind::homography}) {
+    if (static_cast<int>(best.evidence.inliers.size()) < points_needed(kind) + 1) break;
+    Hypothesis refined = refine(best, kind, scene, options);
+    if (refined.rejected.empty() && refined.log10_false_alarms < best.log10_false_alarms)
+      best = std::move(refined);
+  }
+  decide(best, options);
+  return best;
+}
+
+void reconsider(Hypothesis& hypothesis, const SceneContext& scene, const std::vector<char>& taken,
+                const VerifyOptions& options) {
+  hypothesis =
+      judge(hypothesis.view, hypothesis.kind, hypothesis.scene_from_view, scene, taken, options);
+  decide(hypothesis, options);
+}
+
+}  // namespace posevote

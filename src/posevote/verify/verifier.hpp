@@ -1,0 +1,50 @@
+// From a cluster of votes to a verified pose, or the reason why not.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "posevote/verify/evidence.hpp"
+#include "posevote/verify/transform.hpp"
+#include "posevote/vote/hough.hpp"
+
+namespace posevote {
+
+struct VerifyOptions {
+  double false_alarms_per_1000_images = 1;  ///< the dial
+  int min_inliers = 5;
+  EvidenceOptions evidence;
+  PlausibilityOptions plausibility;
+  void describe(OptionList& list);
+};
+
+/// A pose of a view with its evidence.
+struct Hypothesis {
+  int view = 0;  ///< index into ModelSet::views()
+  TransformKind kind = TransformKind::similarity;
+  cv::Matx33d scene_from_view;
+  float tolerance_px = 0;
+  Evidence evidence;
+  double log10_false_alarms = 0;  ///< per image, with the number of poses and views tried
+  std::string rejected;           ///< "" or why the cluster is no object: plain words
+};
+
+/// Everything the verification of one scene reads; must outlive the calls.
+struct SceneContext {
+  const ModelSet& models;
+  const Neighborhood& neighborhood;
+  const SceneGrid& grid;
+  const std::vector<Match>& matches;
+};
+
+/// Finds the pose on which most of the cluster agrees, extends it by guided matching, refines it as
+/// a similarity, affine transform or homography, whichever leaves the fewest false alarms.
+/// Deterministic. `rejected` is set when no plausible pose was found or it could be chance.
+[[nodiscard]] Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
+                                        const VerifyOptions& options);
+
+/// Looks at the evidence of a pose again without the scene features in `taken`.
+void reconsider(Hypothesis& hypothesis, const SceneContext& scene, const std::vector<char>& taken,
+                const VerifyOptions& options);
+
+}  // namespace posevote

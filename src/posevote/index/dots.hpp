@@ -1,0 +1,47 @@
+// Kernels of the scan: scalar products of 8-bit codes, many taught descriptors at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace posevote {
+
+/// Taught codes lie in blocks of this many, quad of dimensions by quad: byte
+/// [block][quad][lane][4]; a block takes quads * kBlockLanes * 4 bytes.
+inline constexpr std::size_t kBlockLanes = 16;
+
+/// Most queries of one call of `dots`.
+inline constexpr std::size_t kMaxQueries = 4;
+
+/// A group of queries for one pass over the blocks.
+struct QueryGroup {
+  const std::int8_t* codes[kMaxQueries];  ///< `quads` * 4 bytes each
+  std::size_t count;                      ///< 1 ... kMaxQueries
+};
+
+/// products[q][i] = sum over d of (code_d(i) - 128) * query_d(q), modulo 2^16, for the
+/// `block_count` * kBlockLanes codes at `blocks`; the rows of `products` lie `stride` apart.
+/// Requires for each pair of query dimensions (2j, 2j + 1): |a| + |b| <= 128. Every instruction set
+/// gives the same numbers.
+void dots(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+          const QueryGroup& queries, std::int16_t* products, std::size_t stride);
+
+/// Writes the positions of all values >= limit in rising order to `positions` (room for `count`)
+/// and returns their number. `count` is a multiple of kBlockLanes.
+[[nodiscard]] std::size_t find_at_least(const std::int16_t* values, std::size_t count,
+                                        std::int16_t limit, std::uint32_t* positions);
+
+/// The largest value of each kBlockLanes values in turn: `count` / kBlockLanes of them.
+void block_maxima(const std::int16_t* values, std::size_t count, std::int16_t* maxima);
+
+/// The same in plain C++: what the kernels are compared with, and what a build without Highway
+/// runs.
+namespace scalar {
+void dots(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+          const QueryGroup& queries, std::int16_t* products, std::size_t stride);
+[[nodiscard]] std::size_t find_at_least(const std::int16_t* values, std::size_t count,
+                                        std::int16_t limit, std::uint32_t* positions);
+void block_maxima(const std::int16_t* values, std::size_t count, std::int16_t* maxima);
+}  // namespace scalar
+
+}  // namespace posevote

@@ -1,0 +1,38 @@
+#include "posevote/store/feature_record.hpp"
+
+#include <sstream>
+
+#include "posevote/core/error.hpp"
+
+namespace posevote {
+
+FeatureRecord record_features(FeatureOptions options) {
+  FeatureRecord record;
+  record.signature = options.signature();
+  const OptionList list = list_options(options);
+  for (const OptionField& field : list.fields())
+    record.settings += field.name + "=" + field.text() + "\n";
+  return record;
+}
+
+FeatureOptions recorded_options(const FeatureRecord& record) {
+  FeatureOptions options;
+  const OptionList list = list_options(options);
+  std::istringstream lines(record.settings);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos) continue;
+    try {
+      list.set(line.substr(0, equals), line.substr(equals + 1));
+    } catch (const Error&) {
+      continue;  // a setting of another version; what matters is in the signature, checked below
+    }
+  }
+  if (options.signature() != record.signature)
+    throw Error(ErrorCode::feature_mismatch,
+                "the database holds features '" + record.signature +
+                    "', which this version does not make; run: posevote objects rebuild");
+  return options;
+}
+
+}  // namespace posevote

@@ -1,0 +1,229 @@
+#include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Statement.h>
+#include <sqlite3.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "posevote/core/error.hpp"
+#include "posevote/image/read_image.hpp"
+#include "posevote/store/sqlite/rows.hpp"
+#include "posevote/store/sqlite/sqlite_store_impl.hpp"
+
+namespace posevote {
+namespace sqlite {
+namespace {
+
+using SQLite::Statement;
+
+/// 8-bit BGR of whatever was taught.
+cv::Mat to_bgr(const cv::Mat& image) {
+  cv::Mat bytes = image, colour;
+  if (image.depth() == CV_16U) image.convertTo(bytes, CV_8U, 1.0 / 256);
+  if (bytes.channels() == 3) return bytes;
+  cv::cvtColor(bytes, colour, bytes.channels() == 1 ? cv::COLOR_GRAY2BGR : cv::COLOR_BGRA2BGR);
+  return colour;
+}
+
+}  // namespace
+
+SqliteStore::SqliteStore(std::string path, const SqliteOptions& options)
+    : path_(std::move(path)), database_(connect(path_, options)) {}
+
+bool SqliteStore::read_only() const {
+  const std::lock_guard lock(mutex_);
+  return sqlite3_db_readonly(database_.getHandle(), "main") != 0;
+}
+
+void SqliteStore::fail(ErrorCode code, const std::string& reason) const {
+  throw Error(code, "database '" + path_ + "' " + reason);
+}
+
+std::string SqliteStore::meta(const std::string& key) const {
+  Statement select(database_, "SELECT value FROM meta WHERE key = ?");
+  select.bind(1, key);
+  if (!select.executeStep())
+    fail(ErrorCode::database_unusable, "is damaged: its '" + key + "' is missing");
+  return select.getColumn(0).getString();
+}
+
+std::int64_t SqliteStore::version() const {
+  return reading([&] {
+    return database_.execAndGet("SELECT value FROM meta WHERE key = 'changes'").getInt64();
+  });
+}
+
+std::optional<FeatureRecord> SqliteStore::features() const {
+  return reading([&] { return recorded_features(); });
+}
+
+std::optional<FeatureRecord> SqliteStore::recorded_features() const {
+  const char* any = "SELECT EXISTS (SELECT 1 FROM view) OR EXISTS (SELECT 1 FROM impostor)";
+  if (database_.execAndGet(any).getInt() == 0) return std::nullopt;
+  return FeatureRecord{meta("signature"), meta("settings")};
+}
+
+std::int64_t SqliteStore::object_id(const std::string& name) const {
+  Statement select(database_, "SELECT id FROM object WHERE name = ?");
+  select.bind(1, name);
+  if (!select.executeStep()) fail(ErrorCode::not_found, "holds no object '" + name + "'");
+  return select.getColumn(0).getInt64();
+}
+
+std::vector<ObjectSummary> SqliteStore::list() const {
+  return reading([&] {
+    std::vector<ObjectSummary> objects;
+    Statement row(
+        database_,
+        "SELECT name, count(*), sum(features), min(taught_at), max(taught_at) FROM object "
+        "JOIN view ON view.object = object.id GROUP BY object.id ORDER BY name");
+    while (row.executeStep())
+      objects.push_back({row.getColumn(0).getString(), row.getColumn(1).getInt(),
+                         row.getColumn(2).getInt64(), row.getColumn(3).getString(),
+                         row.getColumn(4).getString()});
+    return objects;
+  });
+}
+
+std::vector<ViewSummary> SqliteStore::views(const std::string& object) const {
+  return reading([&] {
+    std::vector<ViewSummary> views;
+    Statement row(
+        database_,
+        "SELECT number, hash, yaw_deg, width, height, features, coverage, method, source, "
+        "taught_at, version FROM view WHERE object = ? ORDER BY number");
+    row.bind(1, object_id(object));
+    while (row.executeStep())
+      views.push_back({row.getColumn(0).getString(),
+                       row.getColumn(1).getString(),
+                       yaw_of(row.getColumn(2)),
+                       {row.getColumn(3).getInt(), row.getColumn(4).getInt()},
+                       row.getColumn(5).getInt(),
+                       row.getColumn(6).getDouble(),
+                       row.getColumn(7).getString(),
+                       provenance_of(row)});
+    return views;
+  });
+}
+
+View SqliteStore::checked_view(Statement& row) const {
+  View view;
+  try {
+    view = view_of(row);
+  } catch (const Error& error) {
+    fail(ErrorCode::database_unusable, std::string("is damaged: ") + error.what());
+  }
+  if (content_hash(view, row.getColumn("identity").getString(), meta("signature")) != view.hash)
+    fail(
+        ErrorCode::database_unusable,
+        "is damaged: view " + view.id +
+            " of an object does not hold what was stored; make it again: posevote objects rebuild");
+  return view;
+}
+
+void SqliteStore::check_picture(const TaughtView& view, const std::string& identity,
+                                const std::string& number) const {
+  if (identity_hash(view) != identity)
+    fail(ErrorCode::database_unusable,
+         "is damaged: the picture of view " + number +
+             " of an object is not the one that was stored; remove that view and teach it again");
+}
+
+TaughtView SqliteStore::view(const std::string& object, const std::string& id) const {
+  return reading([&] {
+    Statement row(database_, "SELECT * FROM view WHERE object = ? AND CAST(number AS TEXT) = ?");
+    row.bind(1, object_id(object));
+    row.bind(2, id);
+    if (!row.executeStep())
+      fail(ErrorCode::not_found, "holds no view '" + id + "' of object '" + object + "'");
+    TaughtView taught;
+    taught.view = checked_view(row);
+    taught.picture = copy_of(row.getColumn("picture"));
+    taught.mask = copy_of(row.getColumn("mask"));
+    taught.method = row.getColumn("method").getString();
+    taught.provenance = provenance_of(row);
+    check_picture(taught, row.getColumn("identity").getString(), id);
+    return taught;
+  });
+}
+
+std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id,
+                                                   const LoadOptions& options) const {
+  Statement row(database_, "SELECT * FROM view WHERE id = ?");
+  row.bind(1, id);
+  row.executeStep();
+  View view = checked_view(row);
+  if (options.pictures) {
+    view.picture = to_bgr(decode_image(copy_of(row.getColumn("picture")), path_));
+    const Blob mask = copy_of(row.getColumn("mask"));
+    if (!mask.empty()) view.mask = decode_image(mask, path_);
+  }
+  return std::make_shared<const View>(std::move(view));
+}
+
+std::vector<std::shared_ptr<const View>> SqliteStore::load_views(std::int64_t object,
+                                                                 const LoadOptions& options) const {
+  std::vector<std::shared_ptr<const View>> views;
+  Statement row(database_, "SELECT id, number, hash FROM view WHERE object = ? ORDER BY number");
+  row.bind(1, object);
+  while (row.executeStep()) {
+    const std::string key = row.getColumn(2).getString() + '/' + row.getColumn(1).getString() +
+                            (options.pictures ? " with pictures" : "");
+    std::weak_ptr<const View>& cached = cache_[key];
+    std::shared_ptr<const View> view = cached.lock();
+    if (!view) cached = view = load_view(row.getColumn(0).getInt64(), options);
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
+ObjectModel SqliteStore::load_object(const std::string& name, const LoadOptions& options) const {
+  return reading([&] { return ObjectModel{name, load_views(object_id(name), options)}; });
+}
+
+std::shared_ptr<const ModelSet> SqliteStore::load(const LoadOptions& options) const {
+  return reading([&]() -> std::shared_ptr<const ModelSet> {
+    std::erase_if(cache_, [](const auto& entry) { return entry.second.expired(); });
+    const auto features = recorded_features();
+    if (!features) return std::make_shared<const ModelSet>();
+    std::vector<ObjectModel> objects;
+    Statement object(database_, "SELECT id, name FROM object ORDER BY name");
+    while (object.executeStep())
+      objects.push_back(
+          {object.getColumn(1).getString(), load_views(object.getColumn(0).getInt64(), options)});
+    std::vector<Features> impostors;
+    Statement row(database_, "SELECT keypoints, descriptors, dimension FROM impostor ORDER BY id");
+    while (row.executeStep()) impostors.push_back(features_of(row));
+    return std::make_shared<const ModelSet>(features->signature, std::move(objects),
+                                            std::move(impostors));
+  });
+}
+
+std::vector<ImpostorSummary> SqliteStore::impostors() const {
+  return reading([&] {
+    std::vector<ImpostorSummary> impostors;
+    Statement row(database_,
+                  "SELECT id, features, source, taught_at, version FROM impostor ORDER BY id");
+    while (row.executeStep())
+      impostors.push_back(
+          {row.getColumn(0).getString(), row.getColumn(1).getInt(), provenance_of(row)});
+    return impostors;
+  });
+}
+
+Impostor SqliteStore::impostor(const std::string& id) const {
+  return reading([&] {
+    Statement row(database_, "SELECT * FROM impostor WHERE CAST(id AS TEXT) = ?");
+    row.bind(1, id);
+    if (!row.executeStep()) fail(ErrorCode::not_found, "holds no impostor '" + id + "'");
+    return Impostor{id, features_of(row), copy_of(row.getColumn("picture")), provenance_of(row)};
+  });
+}
+
+}  // namespace sqlite
+
+std::unique_ptr<ObjectStore> open_sqlite_store(const std::string& path,
+                                               const SqliteOptions& options) {
+  return std::make_unique<sqlite::SqliteStore>(path, options);
+}
+
+}  // namespace posevote

@@ -9,6 +9,7 @@
 #include "posevote/core/options.hpp"
 #include "posevote/feature/features.hpp"
 #include "posevote/model/view.hpp"
+#include "posevote/teach/segment.hpp"
 
 namespace posevote {
 
@@ -16,27 +17,37 @@ namespace posevote {
 /// mask, background, roi; none: the alpha channel if the picture has one that is not all opaque,
 /// else the whole picture is the object.
 struct ViewSource {
-  cv::Mat picture;               ///< BGR, BGRA or grey, 8 or 16 bits
-  cv::Mat background;            ///< the same scene without the object, same size
-  cv::Mat mask;                  ///< same size, non-zero: object
-  std::optional<cv::Rect> roi;   ///< px; must overlap the picture
+  cv::Mat picture;              ///< BGR, BGRA or grey, 8 or 16 bits
+  cv::Mat background;           ///< the same scene without the object, same size
+  cv::Mat mask;                 ///< same size, any such type; brighter than half: object
+  std::optional<cv::Rect> roi;  ///< px; must overlap the picture
   double yaw_deg = std::nan("");
-};
-
-struct SegmentOptions {
-  // fields are the segmenter's own; see segment.hpp
-  void describe(OptionList& list);
 };
 
 struct TeachOptions {
   FeatureOptions feature;
+  SegmentOptions segment;
   int min_features = 8;  ///< a view with fewer is refused: it could never be recognised
+  /// Features nearer to the silhouette than this many times their scale are left out. A descriptor
+  /// reaches about 10 scales (SURF) or 8.5 (SIFT) far: 0 keeps those that see the background too,
+  /// which are many on small objects; 10 keeps only what is the object's own.
+  double border_scales = 0;
+  /// Paint the surroundings in the object's mean colour before features are extracted, so that
+  /// descriptors at the silhouette hold no texture of the background that was taught on. Changes
+  /// the silhouette's own contrast.
+  bool paint_surroundings = false;
   void describe(OptionList& list);
 };
 
-/// Makes the View: mask, outline, centre and the features inside the mask. Throws
-/// Error{unusable_view} with advice when the mask is empty, touches the border all round, covers
-/// nearly everything, or holds too few features; Error{invalid_argument} when sizes differ.
+/// The object's pixels: CV_8U, 0 or 255, size of the picture. Throws as `teach_view` does.
+[[nodiscard]] cv::Mat find_object(const ViewSource& source, const SegmentOptions& options = {});
+
+/// Makes the View: mask, outline, centre, the features inside the mask and a BGR 8-bit copy of the
+/// picture; id and hash stay empty. Deterministic and safe to call from many threads. Throws
+/// Error{unusable_view} with advice when no object is found, the mask is empty, a background
+/// difference touches all four sides or covers nearly everything, the camera has moved in between,
+/// or there are too few features; Error{invalid_argument} when sizes differ or a type is not
+/// allowed.
 [[nodiscard]] View teach_view(const ViewSource& source, const TeachOptions& options = {});
 
 }  // namespace posevote

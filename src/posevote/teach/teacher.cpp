@@ -1,0 +1,126 @@
+#include "posevote/teach/teacher.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include "posevote/core/error.hpp"
+#include "posevote/teach/outline.hpp"
+
+namespace posevote {
+namespace {
+
+double white_of(const cv::Mat& image) {
+  return image.depth() == CV_16U ? 65535 : 255;
+}
+
+// CV_8U 0/255: where a picture's only, or fourth, channel is above half.
+cv::Mat above_half(const cv::Mat& image, int channel) {
+  cv::Mat plane;
+  cv::extractChannel(image, plane, channel);
+  return plane > white_of(image) / 2;
+}
+
+cv::Mat from_mask(const ViewSource& source) {
+  if (source.mask.size() != source.picture.size()) {
+    throw Error(ErrorCode::invalid_argument, "the mask is " + size_text(source.mask) +
+                                                 " but the picture " + size_text(source.picture) +
+                                                 "; give a mask of the same size");
+  }
+  const cv::Mat bgr = to_bgr8(source.mask);
+  return above_half(bgr, 0) | above_half(bgr, 1) | above_half(bgr, 2);
+}
+
+cv::Mat from_roi(const ViewSource& source) {
+  const cv::Rect inside = *source.roi & cv::Rect(cv::Point(), source.picture.size());
+  if (inside.empty()) {
+    throw Error(ErrorCode::invalid_argument,
+                "the rectangle lies outside the picture of " + size_text(source.picture));
+  }
+  cv::Mat mask = cv::Mat::zeros(source.picture.size(), CV_8U);
+  mask(inside) = 255;
+  return mask;
+}
+
+cv::Mat from_alpha_or_all(const cv::Mat& picture) {
+  if (picture.channels() == 4) {
+    const cv::Mat opaque = above_half(picture, 3);
+    if (cv::countNonZero(opaque) < static_cast<int>(picture.total())) return opaque;
+  }
+  return cv::Mat(picture.size(), CV_8U, cv::Scalar(255));
+}
+
+Features features_inside(const cv::Mat& picture, const cv::Mat& mask, const TeachOptions& options) {
+  cv::Mat seen = picture, wanted = mask;
+  if (options.paint_surroundings) {
+    seen = picture.clone();
+    seen.setTo(cv::mean(picture, mask), mask == 0);
+  }
+  const auto extractor = make_extractor(options.feature);
+  Features features = extractor->extract(seen, mask);
+  if (options.border_scales <= 0 || features.empty()) return features;
+  // Beyond the picture there is nothing of the object either.
+  cv::Mat framed, distance;
+  cv::copyMakeBorder(mask, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::distanceTransform(framed, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  Features inner;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const Keypoint& k = features.keypoints[i];
+    const int x = std::clamp(cvRound(k.x), 0, mask.cols - 1);
+    const int y = std::clamp(cvRound(k.y), 0, mask.rows - 1);
+    if (distance.at<float>(y + 1, x + 1) < options.border_scales * k.scale) continue;
+    inner.keypoints.push_back(k);
+    inner.descriptors.push_back(features.descriptors.row(static_cast<int>(i)));
+  }
+  return inner;
+}
+
+}  // namespace
+
+void TeachOptions::describe(OptionList& list) {
+  list.group("feature", feature);
+  list.group("segment", segment);
+  list.add("min_features", min_features, {1, 1'000'000}, "",
+           "A view with fewer features is refused.");
+  list.add("border_scales", border_scales, {0, 20}, "",
+           "Leave out features nearer to the silhouette than this many times their scale.");
+  list.add("paint_surroundings", paint_surroundings,
+           "Paint the surroundings in the object's mean colour before looking for features.");
+}
+
+cv::Mat find_object(const ViewSource& source, const SegmentOptions& options) {
+  if (source.picture.empty()) throw Error(ErrorCode::invalid_argument, "the picture is empty");
+  cv::Mat mask;
+  if (!source.mask.empty())
+    mask = from_mask(source);
+  else if (!source.background.empty())
+    return segment_by_background(source.picture, source.background, options);
+  else if (source.roi)
+    mask = from_roi(source);
+  else
+    mask = from_alpha_or_all(source.picture);
+  if (cv::countNonZero(mask) == 0) {
+    throw Error(ErrorCode::unusable_view, "the mask is empty; mark the object's pixels in white");
+  }
+  return mask;
+}
+
+View teach_view(const ViewSource& source, const TeachOptions& options) {
+  validate_options(options);
+  View view;
+  view.picture = to_bgr8(source.picture);
+  view.mask = find_object(source, options.segment);
+  view.image_size = view.picture.size();
+  view.yaw_deg = source.yaw_deg;
+  view.outline = outline_of(view.mask);
+  view.centre = centroid_of(view.mask);
+  view.features = features_inside(view.picture, view.mask, options);
+  if (view.features.size() < static_cast<std::size_t>(options.min_features)) {
+    throw Error(
+        ErrorCode::unusable_view,
+        "only " + std::to_string(view.features.size()) + " features were found on the object and " +
+            std::to_string(options.min_features) +
+            " are needed; take a sharper picture from nearer, or of a side with more print");
+  }
+  return view;
+}
+
+}  // namespace posevote

@@ -1,7 +1,7 @@
 #include "posevote/evaluate/evaluator.hpp"
 
 #include <chrono>
-#include <optional>
+#include <opencv2/imgproc.hpp>
 
 #include "posevote/core/error.hpp"
 #include "posevote/image/read_image.hpp"
@@ -13,20 +13,20 @@ struct Job {
   std::size_t object, view;
 };
 
-ViewSource read_source(const Dataset& dataset, const DatasetView& view) {
+ViewSource read_source(const Dataset& dataset, const DatasetView& view, double factor) {
+  const auto read = [&](const std::filesystem::path& relative) {
+    cv::Mat picture;
+    if (relative.empty()) return picture;
+    picture = read_dataset_image(dataset, relative);
+    if (factor < 1) cv::resize(picture, picture, cv::Size(), factor, factor, cv::INTER_AREA);
+    return picture;
+  };
   ViewSource source;
-  source.picture = read_dataset_image(dataset, view.image);
-  if (!view.background.empty()) source.background = read_dataset_image(dataset, view.background);
-  if (!view.mask.empty()) source.mask = read_dataset_image(dataset, view.mask);
+  source.picture = read(view.image);
+  source.background = read(view.background);
+  source.mask = read(view.mask);
   source.yaw_deg = view.yaw_deg;
   return source;
-}
-
-std::vector<Claim> claims_of(const RecognitionResult& result) {
-  std::vector<Claim> claims;
-  for (const Detection& detection : result.detections)
-    claims.push_back({detection.object, detection.box, detection.confidence});
-  return claims;
 }
 
 TestOutcome run_test(const Dataset& dataset, std::size_t test, const RecognizeFunction& recognize) {
@@ -38,8 +38,7 @@ TestOutcome run_test(const Dataset& dataset, std::size_t test, const RecognizeFu
     if (error.code() != ErrorCode::unreadable_image) throw;
     outcome.error = error.what();
   }
-  outcome.score = score_claims(claims_of(outcome.result), dataset.tests[test], dataset,
-                               outcome.result.image_size);
+  outcome.score = score_detections(outcome.result, dataset.tests[test], dataset);
   return outcome;
 }
 
@@ -51,8 +50,16 @@ cv::Mat read_dataset_image(const Dataset& dataset, const std::filesystem::path& 
   return read_image(dataset.path(relative).string(), as_stored);
 }
 
+Score score_detections(const RecognitionResult& result, const DatasetTest& test,
+                       const Dataset& dataset) {
+  std::vector<Claim> claims;
+  for (const Detection& detection : result.detections)
+    claims.push_back({detection.object, detection.box, detection.confidence});
+  return score_claims(claims, test, dataset, result.image_size);
+}
+
 TaughtDataset teach_dataset(const Dataset& dataset, const TeachOptions& options, int jobs,
-                            const Progress& progress) {
+                            const Progress& progress, double factor) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<Job> work;
   for (std::size_t object = 0; object < dataset.objects.size(); ++object)
@@ -64,7 +71,7 @@ TaughtDataset teach_dataset(const Dataset& dataset, const TeachOptions& options,
   const auto teach = [&](std::size_t i) {
     const DatasetView& wanted = dataset.objects[work[i].object].views[work[i].view];
     try {
-      View view = teach_view(read_source(dataset, wanted), options);
+      View view = teach_view(read_source(dataset, wanted, factor), options);
       view.id = wanted.image.generic_string();
       views[i] = std::make_shared<const View>(std::move(view));
     } catch (const Error& error) {

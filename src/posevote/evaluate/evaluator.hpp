@@ -56,9 +56,15 @@ using RecognizeFunction = std::function<RecognitionResult(const cv::Mat&)>;
                                          const std::filesystem::path& relative);
 
 /// Teaches every view on `jobs` threads. A view whose picture is unusable is listed in `refused`;
-/// an object without any view left is not taught. Throws Error for pictures that cannot be read.
+/// an object without any view left is not taught. Pictures are first scaled by `factor` (at most
+/// 1). Throws Error for pictures that cannot be read.
 [[nodiscard]] TaughtDataset teach_dataset(const Dataset& dataset, const TeachOptions& options,
-                                          int jobs = 0, const Progress& progress = {});
+                                          int jobs = 0, const Progress& progress = {},
+                                          double factor = 1);
+
+/// The score of what was found in the picture of `test`.
+[[nodiscard]] Score score_detections(const RecognitionResult& result, const DatasetTest& test,
+                                     const Dataset& dataset);
 
 /// Recognises and scores all tests of `dataset` on `jobs` threads. Deterministic but for the times.
 [[nodiscard]] std::vector<TestOutcome> run_tests(const Dataset& dataset,

@@ -1,0 +1,248 @@
+#include "posevote/evaluate/report.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include "posevote/core/error.hpp"
+#include "posevote/evaluate/cases.hpp"
+#include "posevote/evaluate/results.hpp"
+#include "posevote/evaluate/summary.hpp"
+
+namespace posevote {
+namespace {
+
+const char* const page_style = R"(:root{color-scheme:light dark;--paper:#fcfcfa;--card:#fff;
+--ink:#1c1f23;--soft:#667080;--line:#dfe2e6;--good:#11875d;--bad:#c8323c;
+--c0:#2763c4;--c1:#d4691e;--c2:#1d8a63;--c3:#9a44b8;--c4:#b3364f;--c5:#5c6b2f}
+@media (prefers-color-scheme:dark){:root{--paper:#15181c;--card:#1d2126;--ink:#e6e8eb;
+--soft:#98a2b0;--line:#343a42;--good:#4cc795;--bad:#ff7b81;
+--c0:#7aa7f5;--c1:#f0a064;--c2:#5fcfa3;--c3:#c98be0;--c4:#f08aa0;--c5:#b4c67a}}
+@media print{:root{--paper:#fff;--card:#fff;--ink:#000;--soft:#555;--line:#ccc;--good:#11875d;
+--bad:#c8323c;--c0:#2763c4;--c1:#d4691e;--c2:#1d8a63;--c3:#9a44b8;--c4:#b3364f;--c5:#5c6b2f}
+figure,.chart,tr,.cards{break-inside:avoid}h2,h3{break-after:avoid}nav{display:none}
+body{max-width:none;padding:0}}
+*{box-sizing:border-box}
+body{margin:0 auto;max-width:72rem;padding:1.5rem;background:var(--paper);color:var(--ink);
+font:15px/1.5 system-ui,sans-serif}
+h1{font-size:1.7rem;margin:.2rem 0}h2{font-size:1.35rem;margin:2.5rem 0 .5rem;
+border-bottom:1px solid var(--line);padding-bottom:.3rem}h3{font-size:1.05rem;margin:1.5rem 0 .4rem}
+a{color:var(--c0)}.soft,.note{color:var(--soft)}.note{font-size:.88rem;margin:.3rem 0}
+nav a{margin-right:1rem}
+.cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(8.5rem,1fr));gap:.8rem;margin:1rem 0}
+.cards div{background:var(--card);border:1px solid var(--line);border-radius:.6rem;padding:.7rem .9rem}
+.cards b{display:block;font-size:1.5rem;line-height:1.2}.cards span{color:var(--soft);font-size:.85rem}
+.table{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;
+font-size:.9rem}th,td{padding:.28rem .7rem;text-align:right;border-bottom:1px solid var(--line);
+white-space:nowrap}th{color:var(--soft);font-weight:600}th:first-child,td:first-child{text-align:left;
+padding-left:0}tbody tr:last-child td{font-weight:600}.plain tbody tr:last-child td{font-weight:400}
+.charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(24rem,1fr));gap:1rem}
+.cases{display:grid;grid-template-columns:repeat(auto-fill,minmax(19rem,1fr));gap:1rem}
+figure{margin:0;background:var(--card);border:1px solid var(--line);border-radius:.6rem;
+overflow:hidden}figcaption{padding:.6rem .8rem;font-size:.85rem;overflow-wrap:anywhere}
+.picture{position:relative}.picture img{display:block;width:100%;height:auto}
+.picture svg{position:absolute;inset:0;width:100%;height:100%}
+.picture polygon,.picture rect{fill:none;stroke-width:2.5px;vector-effect:non-scaling-stroke}
+.claim{stroke:#ff3b47}.truth{stroke:#35d08a;stroke-dasharray:7 4}
+)";
+
+std::string wrap(const std::string& tag, const std::string& css, const std::string& content) {
+  return "<" + tag + " class=\"" + css + "\">" + content + "</" + tag + ">\n";
+}
+
+std::string card(const std::string& value, const std::string& meaning) {
+  return "<div><b>" + escape_html(value) + "</b><span>" + escape_html(meaning) + "</span></div>";
+}
+
+std::string cards(const Evaluation& evaluation) {
+  const Summary s = summarize("all", evaluation.dataset, evaluation.outcomes);
+  const Summary negative = summarize("", evaluation.negatives, evaluation.negative_outcomes);
+  const Interval interval = s.recall_interval();
+  std::string html =
+      card(std::to_string(s.right) + " / " + std::to_string(s.asked), "right / asked") +
+      card(percent(s.recall()), "recall, 95 % within " + fixed(100 * interval.low, 0) + " to " +
+                                    fixed(100 * interval.high, 0) + " %") +
+      card(std::to_string(s.false_positives),
+           "false positives on " + std::to_string(s.images) + " pictures");
+  if (negative.images > 0)
+    html += card(std::to_string(negative.false_positives),
+                 "on " + std::to_string(negative.images) + " pictures without any object");
+  if (s.twins > 0) html += card(std::to_string(s.twins), "named as the twin");
+  return wrap("div", "cards",
+              html + card(fixed(s.total.median_ms, 0) + " ms",
+                          "median time, 95th percentile " + fixed(s.total.p95_ms, 0) + " ms"));
+}
+
+std::string recall_plot(const Evaluation& evaluation) {
+  std::vector<IntervalRow> rows;
+  for (const Summary& s : summarize_groups(evaluation.dataset, evaluation.outcomes)) {
+    if (s.asked == 0) continue;
+    const Interval interval = s.recall_interval();
+    rows.push_back(
+        {s.name.empty() ? "(no group)" : s.name, s.recall(), interval.low, interval.high});
+  }
+  return rows.empty() ? "" : interval_svg("Recall by group, with 95 % interval", rows);
+}
+
+std::string gallery(const std::string& title, const std::vector<Case>& cases,
+                    const ReportOptions& options) {
+  if (cases.empty()) return "";
+  const std::size_t shown = std::min(cases.size(), static_cast<std::size_t>(options.max_cases));
+  std::string figures;
+  for (std::size_t i = 0; i < shown; ++i)
+    figures += case_figure(cases[i], options.picture_width, options.jpeg_quality);
+  std::string heading = title + " (" + std::to_string(cases.size());
+  if (shown < cases.size()) heading += ", the first " + std::to_string(shown) + " shown";
+  return "<h3>" + escape_html(heading + ")") + "</h3>\n" + wrap("div", "cases", figures);
+}
+
+std::string galleries(const Evaluation& e, const ReportOptions& options) {
+  return gallery("False positives, surest first",
+                 cases_of(e.dataset, e.outcomes, Verdict::false_positive), options) +
+         gallery("False positives on " + e.negatives.name,
+                 cases_of(e.negatives, e.negative_outcomes, Verdict::false_positive), options) +
+         gallery("Missed, best visible first", missed_cases(e.dataset, e.outcomes), options) +
+         gallery("Named as the twin", cases_of(e.dataset, e.outcomes, Verdict::twin), options);
+}
+
+std::string titled(Table table, const std::string& title) {
+  table.title = title;
+  return table.to_html();
+}
+
+std::string evaluation_html(const Evaluation& evaluation, std::size_t number,
+                            const ReportOptions& options) {
+  std::string html =
+      "<h2 id=\"set" + std::to_string(number) + "\">" + escape_html(evaluation.dataset.name) +
+      "</h2>\n<p>" + escape_html(evaluation.dataset.description) + "</p>\n<p class=\"soft\">" +
+      std::to_string(evaluation.objects) + " objects taught from " +
+      std::to_string(evaluation.views) + " views with " + std::to_string(evaluation.features) +
+      " features</p>\n" + cards(evaluation) + titled(group_table(evaluation), "By group");
+  html += wrap("div", "charts",
+               recall_plot(evaluation) + precision_recall_chart(evaluation).to_svg() +
+                   false_alarm_chart(evaluation).to_svg());
+  html += titled(time_table(evaluation), "Time") +
+          wrap("div", "plain", titled(ranking_table(evaluation), "Best threshold afterwards"));
+  const Table confusion = confusion_table(evaluation);
+  if (!confusion.rows.empty()) html += wrap("div", "plain", titled(confusion, "Confusions"));
+  if (!evaluation.refused.empty())
+    html += wrap("div", "plain", titled(refused_table(evaluation), "Views that were refused"));
+  return html + galleries(evaluation, options);
+}
+
+std::string section_html(const ReportSection& section) {
+  std::string html = "<h2>" + escape_html(section.title) + "</h2>\n";
+  if (!section.text.empty()) html += "<p>" + escape_html(section.text) + "</p>\n";
+  for (const Table& table : section.tables) html += wrap("div", "plain", table.to_html());
+  std::string charts;
+  for (const Chart& chart : section.charts) charts += chart.to_svg();
+  return charts.empty() ? html : html + wrap("div", "charts", charts);
+}
+
+std::vector<TestOutcome> with_negatives(const Evaluation& evaluation) {
+  auto outcomes = evaluation.outcomes;
+  outcomes.insert(outcomes.end(), evaluation.negative_outcomes.begin(),
+                  evaluation.negative_outcomes.end());
+  return outcomes;
+}
+
+ChartSeries alarms_over_threshold(const std::string& name,
+                                  const std::vector<TestOutcome>& outcomes) {
+  ChartSeries series{name, {}};
+  for (const CurvePoint& point : make_curve(rank_detections(outcomes, ranking("significance"))))
+    series.points.push_back(
+        {point.threshold, point.false_positives / static_cast<double>(outcomes.size())});
+  std::ranges::reverse(series.points);
+  return series;
+}
+
+}  // namespace
+
+Chart precision_recall_chart(const Evaluation& evaluation) {
+  Chart chart{"Precision over recall", {"recall", 0, 1}, {"precision", 0, 1}, {}};
+  const int asked = summarize("", evaluation.dataset, evaluation.outcomes).asked;
+  for (const Ranking& ranking : rankings()) {
+    ChartSeries series{ranking.name, {}};
+    for (const CurvePoint& point : make_curve(rank_detections(with_negatives(evaluation), ranking)))
+      if (asked > 0)
+        series.points.push_back(
+            {static_cast<double>(point.right) / asked,
+             static_cast<double>(point.right) / (point.right + point.false_positives)});
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+Chart false_alarm_chart(const Evaluation& evaluation) {
+  Chart chart{"False positives over the dial",
+              {"significance asked for (−log10 of expected false alarms)", 0, 0},
+              {"false positives per picture", 0, 0},
+              {}};
+  if (!evaluation.outcomes.empty())
+    chart.series.push_back(alarms_over_threshold(evaluation.dataset.name, evaluation.outcomes));
+  if (!evaluation.negative_outcomes.empty())
+    chart.series.push_back(
+        alarms_over_threshold(evaluation.negatives.name, evaluation.negative_outcomes));
+  // Beyond the surest false positive the curves are zero: the axis ends soon after it.
+  double surest = 0;
+  for (const ChartSeries& series : chart.series)
+    for (const cv::Point2d& point : series.points)
+      if (point.y > 0) surest = std::max(surest, point.x);
+  for (ChartSeries& series : chart.series)
+    std::erase_if(series.points, [&](const cv::Point2d& p) { return p.x > 1.2 * surest + 1; });
+  return chart;
+}
+
+std::string make_report(const std::vector<Evaluation>& evaluations,
+                        const std::vector<ReportSection>& sections, const ReportOptions& options) {
+  std::string names, links, body;
+  for (std::size_t i = 0; i < evaluations.size(); ++i) {
+    const std::string name = escape_html(evaluations[i].dataset.name);
+    names += (names.empty() ? "" : ", ") + name;
+    links += "<a href=\"#set" + std::to_string(i) + "\">" + name + "</a>\n";
+    body += evaluation_html(evaluations[i], i, options);
+  }
+  if (evaluations.size() > 1)
+    body = "<nav>" + links + "</nav>\n" + wrap("div", "plain", set_table(evaluations).to_html()) +
+           body;
+  for (const ReportSection& section : sections) body += section_html(section);
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" +
+         names + " – posevote evaluation</title>\n<style>\n" + page_style + chart_style() +
+         "</style></head>\n<body>\n<h1>How good is it?</h1>\n<p class=\"soft\">Right: the name of "
+         "a "
+         "listed object that was not found before, and a box that overlaps its box by at least one "
+         "half (intersection over union, inside the picture). Anything else is a false positive; "
+         "objects that are optional or hidden to more than 85 % are neither asked for nor wrong. "
+         "In "
+         "pictures: red is what was claimed, dashed green is where the listed object is.</p>\n" +
+         body + "</body></html>\n";
+}
+
+std::filesystem::path write_report(const std::string& html, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const auto file = folder / "index.html";
+  std::ofstream stream(file, std::ios::binary);
+  stream << html;
+  stream.close();
+  if (!stream) throw Error(ErrorCode::io, "cannot write " + file.string());
+  return file;
+}
+
+std::string make_markdown(const std::vector<Evaluation>& evaluations,
+                          const std::vector<ReportSection>& sections) {
+  std::string text = set_table(evaluations).to_markdown();
+  for (const Evaluation& evaluation : evaluations) {
+    text += "\n## " + evaluation.dataset.name + "\n\n" + evaluation.dataset.description + "\n\n" +
+            group_table(evaluation).to_markdown() + "\n" + time_table(evaluation).to_markdown();
+    const Table confusion = confusion_table(evaluation);
+    if (!confusion.rows.empty()) text += "\n" + confusion.to_markdown();
+  }
+  for (const ReportSection& section : sections) {
+    text += "\n## " + section.title + "\n\n" + (section.text.empty() ? "" : section.text + "\n\n");
+    for (const Table& table : section.tables) text += table.to_markdown() + "\n";
+  }
+  return text;
+}
+
+}  // namespace posevote

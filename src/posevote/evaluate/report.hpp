@@ -1,0 +1,49 @@
+// The report: one HTML page that needs nothing else.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "posevote/evaluate/chart.hpp"
+#include "posevote/evaluate/evaluator.hpp"
+#include "posevote/evaluate/table.hpp"
+
+namespace posevote {
+
+/// A part of the report beside the evaluation itself: the paper's tables, sweeps, peers.
+struct ReportSection {
+  std::string title;
+  std::string text;  ///< a sentence or two, may be empty
+  std::vector<Table> tables;
+  std::vector<Chart> charts;
+};
+
+struct ReportOptions {
+  int max_cases = 24;       ///< pictures of each kind: false, missed, twins
+  int picture_width = 480;  ///< px; wider pictures are reduced
+  int jpeg_quality = 82;
+};
+
+/// Precision over recall for each ranking.
+[[nodiscard]] Chart precision_recall_chart(const Evaluation& evaluation);
+/// False positives per image (the set's and, if any, the negatives') over the threshold on
+/// significance, -log10 of the expected number of false alarms: the dial.
+[[nodiscard]] Chart false_alarm_chart(const Evaluation& evaluation);
+
+/// The whole page as text: style, plots (SVG) and pictures (JPEG in base64) inline. Worst cases
+/// first: false positives by falling significance, then missed objects by falling visibility.
+/// Deterministic. Pictures of the data sets are read again; one that cannot be read is left out.
+[[nodiscard]] std::string make_report(const std::vector<Evaluation>& evaluations,
+                                      const std::vector<ReportSection>& sections = {},
+                                      const ReportOptions& options = {});
+
+/// Writes `html` as index.html into `folder`, which is made; returns the file's path.
+/// Throws Error{io}.
+std::filesystem::path write_report(const std::string& html, const std::filesystem::path& folder);
+
+/// Tables and numbers of `make_report` as Markdown, without pictures and plots.
+[[nodiscard]] std::string make_markdown(const std::vector<Evaluation>& evaluations,
+                                        const std::vector<ReportSection>& sections = {});
+
+}  // namespace posevote

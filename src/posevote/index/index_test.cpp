@@ -164,5 +164,228 @@ TEST(ExactIndex, RefusesDescriptorsOfAnotherLength) {
   EXPECT_THROW((void)make_index(models, exact())->search(random_features(4, 128, 1), 3), Error);
 }
 
+TEST(ExactIndex, TakesHalfFloatsAndExtremeDescriptors) {
+  Features pool = random_features(50, 64, 1, {0});
+  for (int i = 0; i < 10; ++i) {  // one value holds everything, or all values are equal
+    pool.descriptors.row(i).setTo(i % 2 == 0 ? 0.125 : 0);
+    if (i % 2 != 0) pool.descriptors.at<float>(i, i) = i % 3 == 0 ? -1.0F : 1.0F;
+  }
+  const Features scene = pool;
+  pool.descriptors.convertTo(pool.descriptors, CV_16F);
+  const auto found = make_index(make_models({}, {pool}), exact())->search(scene, 1);
+  for (const auto& row : found) EXPECT_LT(row.at(0).distance, 1e-3);
+}
+
+TEST(ExactIndex, SurvivesValuesThatAreNotNumbers) {
+  Features broken = random_features(40, 64, 1);
+  broken.descriptors.row(3).setTo(std::numeric_limits<float>::quiet_NaN());
+  broken.descriptors.row(4).setTo(std::numeric_limits<float>::infinity());
+  broken.descriptors.row(5).setTo(1e30);
+  const auto models = make_models({make_view(broken)});
+  for (const char* method : {"exact", "approximate"}) {
+    IndexOptions options;
+    options.method = method;
+    EXPECT_EQ(make_index(models, options)->search(broken, 3).size(), 40U);
+  }
+}
+
+/// Views whose descriptors gather about some common directions, as real ones do.
+std::vector<std::shared_ptr<const View>> clustered_views(int views, int rows, int dimension = 64) {
+  const Features directions = random_features(200, dimension, 77);
+  std::vector<std::shared_ptr<const View>> result;
+  cv::RNG random(5);
+  for (int v = 0; v < views; ++v) {
+    Features features = random_features(rows, dimension, 100 + v, {1, -1});
+    for (int i = 0; i < rows; ++i) {
+      cv::Mat row = features.descriptors.row(i);
+      row = 0.6 * row + directions.descriptors.row(random.uniform(0, 200));
+      cv::normalize(row, row);
+    }
+    result.push_back(make_view(features));
+  }
+  return result;
+}
+
+/// The scene sees features of some views again, a little changed.
+Features seen_again(const std::vector<std::shared_ptr<const View>>& views) {
+  Features scene;
+  for (std::size_t v = 0; v < views.size(); v += 3) {
+    const Features& features = views[v]->features;
+    const Features noise = random_features(20, features.descriptors.cols, int(v));
+    for (int i = 0; i < 20; ++i) {
+      cv::Mat row = features.descriptors.row(i) + 0.25 * noise.descriptors.row(i);
+      cv::normalize(row, row);
+      scene.descriptors.push_back(row);
+      scene.keypoints.push_back(features.keypoints[static_cast<std::size_t>(i)]);
+    }
+  }
+  return scene;
+}
+
+IndexOptions approximate() {
+  IndexOptions options;
+  options.method = "approximate";
+  return options;
+}
+
+/// Share of the first neighbours that are the right ones.
+double recall_first(const std::vector<std::vector<Neighbor>>& found,
+                    const std::vector<std::vector<Neighbor>>& expected) {
+  double right = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    right += found[i].size() == expected[i].size() && found[i][0].view == expected[i][0].view &&
+             found[i][0].feature == expected[i][0].feature;
+  return right / static_cast<double>(found.size());
+}
+
+void expect_equal(const std::vector<std::vector<Neighbor>>& a,
+                  const std::vector<std::vector<Neighbor>>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].size(), b[i].size());
+    for (std::size_t j = 0; j < a[i].size(); ++j) {
+      EXPECT_EQ(a[i][j].view, b[i][j].view);
+      EXPECT_EQ(a[i][j].feature, b[i][j].feature);
+      EXPECT_EQ(a[i][j].distance, b[i][j].distance);
+    }
+  }
+}
+
+TEST(ApproximateIndex, FindsNearlyAllFirstNeighbours) {
+  for (const int dimension : {64, 128}) {
+    const auto views = clustered_views(60, 200, dimension);
+    const auto models = make_models(views);
+    const Features scene = seen_again(views);
+    const auto index = make_index(models, approximate());
+    EXPECT_GT(index->statistics().lists, 100U);
+    const auto found = index->search(scene, 10);
+    EXPECT_GE(recall_first(found, make_index(models, exact())->search(scene, 10)), 0.98);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Neighbor& n = found[i][0];
+      EXPECT_NEAR(
+          n.distance,
+          distance(scene.descriptors, int(i),
+                   models->views()[std::size_t(n.view)].view->features.descriptors, n.feature),
+          2e-6);
+    }
+  }
+}
+
+TEST(ApproximateIndex, IsExactWhenItProbesEveryList) {
+  const auto views = clustered_views(20, 200);
+  const auto models = make_models(views);
+  IndexOptions options = approximate();
+  options.probes = 65536;
+  const Features scene = seen_again(views);
+  EXPECT_EQ(recall_first(make_index(models, options)->search(scene, 5),
+                         make_index(models, exact())->search(scene, 5)),
+            1.0);
+}
+
+TEST(ApproximateIndex, AnswersTheSameForAnyNumberOfThreads) {
+  const auto views = clustered_views(40, 150);
+  const auto models = make_models(views);
+  const Features scene = seen_again(views);
+  IndexOptions options = approximate();
+  const auto one = make_index(models, options)->search(scene, 10);
+  for (const int threads : {2, 3, 64, 256}) {
+    options.threads = threads;
+    expect_equal(make_index(models, options)->search(scene, 10), one);
+  }
+}
+
+TEST(ApproximateIndex, NeverPairsOppositeSigns) {
+  const auto views = clustered_views(30, 100);
+  const auto models = make_models(views);
+  Features scene = seen_again(views);
+  const auto index = make_index(models, approximate());
+  const auto found = index->search(scene, 20);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (const Neighbor& n : found[i])
+      EXPECT_EQ(views[std::size_t(n.view)]->features.keypoints[std::size_t(n.feature)].laplacian,
+                scene.keypoints[i].laplacian);
+}
+
+TEST(GrowingIndex, KnowsAddedAndForgetsRemovedViews) {
+  const auto views = clustered_views(60, 100);
+  const Features pool = random_features(50, 64, 9);
+  for (const IndexOptions& options : {exact(), approximate()}) {
+    std::shared_ptr<const Index> index;
+    // Views come one by one, later the first ones go, some in the middle, and come back.
+    std::vector<std::pair<std::size_t, std::size_t>> ranges;
+    for (std::size_t n = 1; n <= 60; n += 7) ranges.emplace_back(0, n);
+    for (const auto& range : {std::pair<std::size_t, std::size_t>{20, 57}, {50, 60}, {0, 60}})
+      ranges.push_back(range);
+    for (const auto& [first, last] : ranges) {
+      const auto models =
+          make_models({views.begin() + int(first), views.begin() + int(last)}, {pool});
+      index = make_index(models, options, index.get());
+      EXPECT_EQ(index->statistics().descriptors, models->feature_count() + pool.size());
+      const Features scene = seen_again({views.begin() + int(first), views.begin() + int(last)});
+      const auto fresh = make_index(models, exact())->search(scene, 4);
+      const auto found = index->search(scene, 4);
+      if (options.method == "exact")
+        expect_equal(found, fresh);
+      else
+        EXPECT_GE(recall_first(found, fresh), 0.98) << first << " - " << last;
+    }
+  }
+}
+
+TEST(GrowingIndex, SharesWhatItHasPrepared) {
+  const auto views = clustered_views(60, 100);
+  const auto before = make_index(make_models({views.begin(), views.end() - 1}), approximate());
+  const auto after = make_index(make_models(views), approximate(), before.get());
+  EXPECT_EQ(before->statistics().segments, 1U);
+  EXPECT_EQ(after->statistics().segments, 2U);
+}
+
+TEST(GrowingIndex, FindsTheSameViewInTwoObjects) {
+  const auto view = make_view(random_features(10, 64, 1, {1}));
+  const auto before = make_index(make_models({view}), exact());
+  const auto after = make_index(make_models({view, view}), exact(), before.get());
+  const auto found = after->search(random_features(1, 64, 1, {1}), 2);
+  EXPECT_EQ(found[0][0].view, 0);
+  EXPECT_EQ(found[0][1].view, 1);
+}
+
+TEST(SavedIndex, AnswersAsBefore) {
+  const auto views = clustered_views(50, 100);
+  const auto models = make_models(views, {random_features(30, 64, 9)});
+  const auto index = make_index(models, approximate());
+  const auto loaded = load_index(models, index->save(), approximate());
+  const Features scene = seen_again(views);
+  expect_equal(loaded->search(scene, 5), index->search(scene, 5));
+  EXPECT_EQ(loaded->save(), index->save());
+}
+
+TEST(SavedIndex, TakesAnOlderStateOfTheModels) {
+  const auto views = clustered_views(50, 100);
+  const auto old = make_index(make_models({views.begin() + 5, views.end() - 5}), approximate());
+  const auto models = make_models(views);
+  const Features scene = seen_again(views);
+  EXPECT_GE(recall_first(load_index(models, old->save(), approximate())->search(scene, 5),
+                         make_index(models, exact())->search(scene, 5)),
+            0.98);
+}
+
+TEST(SavedIndex, IgnoresBytesThatAreOfNoUse) {
+  const auto views = clustered_views(20, 100);
+  const auto models = make_models(views);
+  const Features scene = seen_again(views);
+  const auto index = make_index(models, approximate());
+  const auto expected = index->search(scene, 5);
+  const std::string good = index->save();
+  for (std::size_t i = 0; i < good.size(); i += 97) {
+    std::string damaged = good;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+    if (i % 3 == 0) damaged.resize(i);
+    if (i > 3000 && i % 13 != 0) continue;
+    expect_equal(load_index(models, damaged, approximate())->search(scene, 5), expected);
+  }
+  const auto other = make_index(make_models(clustered_views(20, 100, 128)), approximate());
+  expect_equal(load_index(models, other->save(), approximate())->search(scene, 5), expected);
+}
+
 }  // namespace
 }  // namespace posevote

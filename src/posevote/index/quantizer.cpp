@@ -1,0 +1,172 @@
+#include "posevote/index/quantizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "posevote/index/parallel.hpp"
+
+namespace posevote {
+namespace {
+
+constexpr int kIterations = 8;  // the mean similarity moves by less than 0.1 % afterwards
+
+std::vector<std::uint8_t> encode_centers(const Coder& coder, const std::vector<float>& centers,
+                                         std::size_t count) {
+  const std::size_t blocks = (count + kBlockLanes - 1) / kBlockLanes;
+  std::vector<std::uint8_t> codes(blocks * coder.block_bytes(), 128);
+  for (std::size_t i = 0; i < count; ++i)
+    coder.encode_taught(&centers[i * static_cast<std::size_t>(coder.dimension())], nullptr,
+                        kUnitScale, &codes[i / kBlockLanes * coder.block_bytes()], i % kBlockLanes);
+  return codes;
+}
+
+/// Mean direction of the rows of each list; a list without rows keeps its centre.
+void move_centers(int dimension, const std::vector<std::uint16_t>& lists,
+                  const Centers::ReadRow& row, std::vector<float>& centers) {
+  const auto size = static_cast<std::size_t>(dimension);
+  std::vector<float> sums(centers.size());
+  std::vector<float> buffer;
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    const float* values = row(i, buffer);
+    float* sum = &sums[lists[i] * size];
+    for (std::size_t d = 0; d < size; ++d) sum[d] += values[d];
+  }
+  for (std::size_t c = 0; c * size < centers.size(); ++c) {
+    const float* sum = &sums[c * size];
+    const float length = std::sqrt(std::inner_product(sum, sum + size, sum, 0.0F));
+    if (!(length > 0)) continue;
+    for (std::size_t d = 0; d < size; ++d) centers[c * size + d] = sum[d] / length;
+  }
+}
+
+/// Positions of the `wanted` largest of `values`, the largest first; ties: the lower position.
+/// A limit that surely lets that many through is found from the maxima of blocks.
+class Largest {
+ public:
+  void find(const std::int16_t* values, std::size_t count, std::size_t wanted,
+            std::uint16_t* result) {
+    const std::size_t padded = (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+    maxima_.resize(padded / kBlockLanes);
+    positions_.resize(padded);
+    std::int16_t limit = std::numeric_limits<std::int16_t>::min();
+    if (maxima_.size() > wanted) {
+      block_maxima(values, padded, maxima_.data());
+      const auto nth = maxima_.begin() + static_cast<std::ptrdiff_t>(wanted - 1);
+      std::nth_element(maxima_.begin(), nth, maxima_.end(), std::greater<>());
+      limit = *nth;
+    }
+    positions_.resize(find_at_least(values, padded, limit, positions_.data()));
+    const auto better = [&](std::uint32_t a, std::uint32_t b) {
+      return values[a] != values[b] ? values[a] > values[b] : a < b;
+    };
+    const auto last = positions_.begin() + static_cast<std::ptrdiff_t>(wanted);
+    if (positions_.size() > wanted)
+      std::nth_element(positions_.begin(), last - 1, positions_.end(), better);
+    std::iter_swap(positions_.begin(), std::min_element(positions_.begin(), last, better));
+    std::copy(positions_.begin(), last, result);
+  }
+
+ private:
+  std::vector<std::int16_t> maxima_;
+  std::vector<std::uint32_t> positions_;
+};
+
+/// A scale at which the codes of nearly all rows, less their centres, are neither cut nor
+/// shortened.
+float find_member_scale(const Coder& coder, const Centers& centers,
+                        const std::vector<std::uint16_t>& lists, const Centers::ReadRow& row) {
+  constexpr float kLongest = 140, kHighest = 127;  // rounding stays within the limits of Coder
+  std::vector<float> scales;
+  std::vector<float> buffer;
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    const float* values = row(i, buffer);
+    const float* center = centers.center(lists[i]);
+    float squares = 1e-6F, highest = 1e-3F;
+    for (int d = 0; d < coder.dimension(); ++d) {
+      const float v = values[d] - center[d];
+      squares += v * v;
+      highest = std::max(highest, std::abs(v));
+    }
+    scales.push_back(std::min(kLongest / std::sqrt(squares), kHighest / highest));
+  }
+  const auto nearly_all = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 100);
+  std::nth_element(scales.begin(), nearly_all, scales.end());
+  return std::max(kUnitScale, *nearly_all);
+}
+
+}  // namespace
+
+Centers::Centers(const Coder& coder, std::size_t count, std::vector<std::uint8_t> codes,
+                 float member_scale)
+    : count_(count), codes_(std::move(codes)), member_scale_(member_scale) {
+  const auto size = static_cast<std::size_t>(coder.dimension());
+  values_.resize(count * size);
+  for (std::size_t i = 0; i < count; ++i)
+    coder.decode_taught(&codes_[i / kBlockLanes * coder.block_bytes()], i % kBlockLanes, kUnitScale,
+                        &values_[i * size]);
+}
+
+Centers Centers::train(const Coder& coder, std::size_t count, std::size_t sample_count,
+                       const ReadRow& row, int threads) {
+  const auto size = static_cast<std::size_t>(coder.dimension());
+  std::vector<float> centers(count * size);
+  std::vector<float> buffer;
+  for (std::size_t c = 0; c < count; ++c) {
+    const float* values = row(c * sample_count / count, buffer);
+    std::copy(values, values + size, &centers[c * size]);
+  }
+  Centers result(coder, count, encode_centers(coder, centers, count), kUnitScale);
+  std::vector<std::uint16_t> lists(sample_count);
+  for (int i = 0; i < kIterations; ++i) {
+    result.assign(coder, sample_count, row, lists.data(), threads);
+    move_centers(coder.dimension(), lists, row, centers);
+    result = Centers(coder, count, encode_centers(coder, centers, count), kUnitScale);
+  }
+  result.assign(coder, sample_count, row, lists.data(), threads);
+  result.member_scale_ = find_member_scale(coder, result, lists, row);
+  return result;
+}
+
+void Centers::assign(const Coder& coder, std::size_t row_count, const ReadRow& row,
+                     std::uint16_t* lists, int threads) const {
+  if (count_ <= 1) {
+    std::fill(lists, lists + row_count, std::uint16_t{0});
+    return;
+  }
+  const std::size_t groups = (row_count + kMaxQueries - 1) / kMaxQueries;
+  parallel(threads, groups, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> buffer;
+    std::vector<std::int8_t> codes(kMaxQueries * coder.quads() * 4);
+    for (std::size_t first = begin * kMaxQueries; first < std::min(row_count, end * kMaxQueries);
+         first += kMaxQueries) {
+      QueryGroup group{};
+      group.count = std::min(kMaxQueries, row_count - first);
+      for (std::size_t q = 0; q < group.count; ++q) {
+        group.codes[q] = &codes[q * coder.quads() * 4];
+        coder.encode_query(row(first + q, buffer), &codes[q * coder.quads() * 4]);
+      }
+      nearest(coder, group, 1, lists + first);
+    }
+  });
+}
+
+void Centers::nearest(const Coder& coder, const QueryGroup& queries, std::size_t probes,
+                      std::uint16_t* lists) const {
+  probes = std::min(probes, this->lists());
+  if (count_ <= 1) {
+    std::fill(lists, lists + queries.count, std::uint16_t{0});
+    return;
+  }
+  std::vector<std::int16_t> products(queries.count * padded());
+  Largest largest;
+  dots(codes_.data(), padded() / kBlockLanes, coder.quads(), queries, products.data(), padded());
+  for (std::size_t q = 0; q < queries.count; ++q) {
+    std::int16_t* values = &products[q * padded()];
+    std::fill(values + count_, values + padded(), std::numeric_limits<std::int16_t>::min());
+    largest.find(values, count_, probes, lists + q * probes);
+  }
+}
+
+}  // namespace posevote

@@ -2,12 +2,18 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <opencv2/core/utility.hpp>
 
 #include "command.hpp"
 #include "posevote/core/error.hpp"
+#include "posevote/evaluate/method.hpp"
+#include "posevote/evaluate/paper.hpp"
+#include "posevote/evaluate/peer.hpp"
+#include "posevote/evaluate/report.hpp"
 #include "posevote/evaluate/requirement.hpp"
 #include "posevote/evaluate/results.hpp"
+#include "posevote/evaluate/sweep.hpp"
 #include "progress.hpp"
 
 namespace posevote::cli {
@@ -16,38 +22,38 @@ namespace {
 struct EvaluateArguments {
   std::vector<std::string> datasets;
   std::string preset = "default";
-  std::vector<std::string> settings;
-  std::vector<std::string> groups;
-  std::string negatives, dump, require;
+  std::vector<std::string> settings, groups, tables, sweeps, peers;
+  std::string negatives, dump, require, report, markdown;
   int limit = 0, jobs = 0;
   bool json = false;
 };
 
-struct Method {
-  RecognizeOptions recognize;
-  TeachOptions teach;
-};
-
-// Settings that begin with "teach." are the teacher's, all others the recogniser's. Both use the
-// same features unless teach.feature.* says otherwise.
-Method read_method(const EvaluateArguments& arguments) {
-  Method method;
-  method.recognize = make_preset(arguments.preset);
-  std::vector<std::pair<std::string, std::string>> teach_settings;
-  const OptionList list = list_options(method.recognize);
-  for (const std::string& setting : arguments.settings) {
-    const auto equals = setting.find('=');
-    if (equals == std::string::npos) wrong_usage("--set needs NAME=VALUE, not '" + setting + "'");
-    const std::string name = setting.substr(0, equals), value = setting.substr(equals + 1);
-    if (name.starts_with("teach."))
-      teach_settings.emplace_back(name.substr(6), value);
-    else
-      list.set(name, value);
+std::vector<std::pair<std::string, std::string>> read_settings(
+    const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, std::string>> settings;
+  for (const std::string& text : texts) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) wrong_usage("--set needs NAME=VALUE, not '" + text + "'");
+    settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
-  method.teach.feature = method.recognize.feature;
-  const OptionList teach_list = list_options(method.teach);
-  for (const auto& [name, value] : teach_settings) teach_list.set(name, value);
-  return method;
+  return settings;
+}
+
+// One bar at a time: a new task wipes that of the task before.
+TaskProgress show_progress() {
+  struct State {
+    std::string task;
+    std::unique_ptr<ProgressBar> bar;
+  };
+  return [state = std::make_shared<State>()](const std::string& name, std::size_t done,
+                                             std::size_t total) {
+    if (state->task != name || done == 1) {
+      state->task = name;
+      state->bar = std::make_unique<ProgressBar>(name, total);
+    }
+    state->bar->advance();
+    if (done == total) state->bar.reset();
+  };
 }
 
 // A folder without dataset.json stands for all data sets in it.
@@ -65,33 +71,16 @@ std::vector<std::filesystem::path> expand_datasets(const std::vector<std::string
   return paths;
 }
 
-Progress show(ProgressBar& bar) {
-  return [&bar](std::size_t, std::size_t) { bar.advance(); };
+std::vector<std::string> or_all(const std::vector<std::string>& wanted,
+                                const std::vector<std::string>& all) {
+  return wanted == std::vector<std::string>{"all"} ? all : wanted;
 }
 
-std::vector<TestOutcome> run_with_bar(const Dataset& dataset, const RecognizeFunction& recognize,
-                                      int jobs) {
-  ProgressBar bar(dataset.name + ": recognising", dataset.tests.size());
-  return run_tests(dataset, recognize, jobs, show(bar));
-}
-
-TaughtDataset teach_with_bar(const Dataset& dataset, const TeachOptions& options, int jobs) {
-  std::size_t views = 0;
-  for (const DatasetObject& object : dataset.objects) views += object.views.size();
-  ProgressBar bar(dataset.name + ": teaching", views);
-  return teach_dataset(dataset, options, jobs, show(bar));
-}
-
-Evaluation evaluate(const Dataset& dataset, const Dataset& negatives, const Method& method,
-                    int jobs) {
-  const TaughtDataset taught = teach_with_bar(dataset, method.teach, jobs);
-  const Recognizer recognizer(taught.models, method.recognize);
-  const auto recognize = [&](const cv::Mat& picture) { return recognizer.recognize(picture); };
-  Evaluation evaluation =
-      make_evaluation(dataset, taught, run_with_bar(dataset, recognize, jobs), jobs);
-  evaluation.negatives = negatives;
-  evaluation.negative_outcomes = run_with_bar(negatives, recognize, jobs);
-  return evaluation;
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw Error(ErrorCode::io, "cannot write " + path);
 }
 
 void print_one(const Evaluation& evaluation) {
@@ -112,59 +101,102 @@ void print_one(const Evaluation& evaluation) {
   if (!evaluation.refused.empty()) std::cout << '\n' << refused_table(evaluation).to_text();
 }
 
-void print(const std::vector<Evaluation>& evaluations, bool json) {
+void print(const std::vector<Evaluation>& evaluations, const std::vector<ReportSection>& sections,
+           bool json) {
   if (json) {
     for (const Evaluation& evaluation : evaluations) std::cout << to_json(evaluation) << '\n';
   } else if (evaluations.size() == 1) {
     print_one(evaluations.front());
-  } else {
+  } else if (!evaluations.empty()) {
     std::cout << set_table(evaluations).to_text();
   }
+  if (!json && !evaluations.empty() && !sections.empty()) std::cout << '\n';
+  for (const ReportSection& section : sections)
+    std::cout << (json ? to_json(section) + "\n" : to_text(section));
   std::cout << std::flush;
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw Error(ErrorCode::io, "cannot write " + path);
+// Tells of unreadable pictures and requirements that are not met.
+void report_problems(const Evaluation& evaluation, const std::vector<Requirement>& requirements,
+                     CommandContext& context) {
+  std::vector<std::string> problems;
+  for (const auto* outcomes : {&evaluation.outcomes, &evaluation.negative_outcomes})
+    for (const TestOutcome& outcome : *outcomes)
+      if (!outcome.error.empty()) problems.push_back(outcome.error);
+  const auto unmet = unmet_requirements(
+      requirements, summarize(evaluation.dataset.name, evaluation.dataset, evaluation.outcomes));
+  problems.insert(problems.end(), unmet.begin(), unmet.end());
+  for (const std::string& problem : problems) print_error(problem);
+  if (!problems.empty()) context.exit_status = 1;
 }
 
-void report_problems(const Evaluation& evaluation, CommandContext& context) {
-  for (const auto* outcomes : {&evaluation.outcomes, &evaluation.negative_outcomes})
-    for (const TestOutcome& outcome : *outcomes) {
-      if (outcome.error.empty()) continue;
-      print_error(outcome.error);
-      context.exit_status = 1;
-    }
+// What one data set gives: the evaluation, unless only tables or sweeps are wanted, and the rest.
+void work_on(const Dataset& dataset, const Dataset& negatives, const EvaluateArguments& arguments,
+             const Method& method, std::vector<Evaluation>& evaluations,
+             std::vector<ReportSection>& sections) {
+  for (const std::string& name : or_all(arguments.tables, results_for(dataset)))
+    sections.push_back(reproduce(name, dataset, method));
+  const bool only_parts = (!arguments.tables.empty() || !arguments.sweeps.empty()) &&
+                          arguments.report.empty() && arguments.markdown.empty();
+  if (only_parts && arguments.sweeps.empty()) return;
+  const TaughtMethod taught(dataset, method);
+  for (const std::string& name : or_all(arguments.sweeps, sweep_names()))
+    sections.push_back(run_sweep(name, dataset, taught, method));
+  if (only_parts) return;
+  evaluations.push_back(taught.evaluate(dataset, negatives));
+  if (!arguments.peers.empty())
+    sections.push_back(compare_peers(or_all(arguments.peers, peer_names()), evaluations.back(),
+                                     taught.taught(), method));
 }
 
 void run(const EvaluateArguments& arguments, CommandContext& context) {
-  const Method method = read_method(arguments);
+  Method method = make_method(arguments.preset, read_settings(arguments.settings));
+  method.jobs = arguments.jobs;
+  method.progress = show_progress();
   const auto requirements = parse_requirements(arguments.require);
   if (thread_count(arguments.jobs) > 1) cv::setNumThreads(1);
   Dataset negatives;
   if (!arguments.negatives.empty()) negatives = load_dataset(arguments.negatives);
 
   std::vector<Evaluation> evaluations;
-  for (const auto& path : expand_datasets(arguments.datasets)) {
-    const Dataset dataset = select_tests(load_dataset(path), arguments.groups, arguments.limit);
-    evaluations.push_back(evaluate(dataset, negatives, method, arguments.jobs));
-    report_problems(evaluations.back(), context);
-  }
-  print(evaluations, arguments.json);
+  std::vector<ReportSection> sections;
+  for (const auto& path : expand_datasets(arguments.datasets))
+    work_on(select_tests(load_dataset(path), arguments.groups, arguments.limit), negatives,
+            arguments, method, evaluations, sections);
 
-  std::string lines;
-  for (const Evaluation& evaluation : evaluations) {
-    if (!arguments.dump.empty()) lines += to_json_lines(evaluation);
-    const Summary whole =
-        summarize(evaluation.dataset.name, evaluation.dataset, evaluation.outcomes);
-    for (const std::string& failure : unmet_requirements(requirements, whole)) {
-      print_error(failure);
-      context.exit_status = 1;
-    }
+  print(evaluations, sections, arguments.json);
+  if (!arguments.report.empty())
+    std::cerr << "report: "
+              << write_report(make_report(evaluations, sections), arguments.report).string()
+              << '\n';
+  if (!arguments.markdown.empty())
+    write_file(arguments.markdown, make_markdown(evaluations, sections));
+  if (!arguments.dump.empty()) {
+    std::string lines;
+    for (const Evaluation& evaluation : evaluations) lines += to_json_lines(evaluation);
+    write_file(arguments.dump, lines);
   }
-  if (!arguments.dump.empty()) write_file(arguments.dump, lines);
+  for (const Evaluation& evaluation : evaluations)
+    report_problems(evaluation, requirements, context);
+}
+
+CLI::Option* add_names(CLI::App& command, const std::string& name, std::vector<std::string>& names,
+                       std::vector<std::string> allowed, const std::string& help) {
+  allowed.emplace_back("all");
+  return command.add_option(name, names, help)->check(CLI::IsMember(allowed))->delimiter(',');
+}
+
+void add_outputs(CLI::App& command, EvaluateArguments& a) {
+  command.add_option("--report", a.report, "Write FOLDER/index.html: plots, pictures, worst cases")
+      ->type_name("FOLDER");
+  command.add_option("--markdown", a.markdown, "Write the tables to FILE")->type_name("FILE");
+  command
+      .add_option("--dump", a.dump,
+                  "Write every detection and every miss to FILE, a line of JSON each")
+      ->type_name("FILE");
+  command.add_flag("--json", a.json, "One line of JSON for each data set");
+  command.add_option("--require", a.require,
+                     "Fail unless met, e.g. recall=0.95,precision=0.99,false_positives=0");
 }
 
 }  // namespace
@@ -173,9 +205,10 @@ void add_evaluate(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* command = add_command(
       app, "evaluate", "Teach a data set's objects, recognise its tests and print how good it was",
-      "  posevote evaluate data/demo\n"
-      "  posevote evaluate my-sets/* --negatives my-negatives\n"
-      "  posevote evaluate data/demo --groups 'occluded*' --json\n"
+      "  posevote evaluate data/demo --report report\n"
+      "  posevote evaluate my-sets --negatives my-negatives\n"
+      "  posevote evaluate data/demo --groups 'occluded*' --compare opencv-sift,opencv-orb\n"
+      "  posevote evaluate data/demo --sweep blur,noise\n"
       "  posevote evaluate data/demo --require recall=0.95,false_positives=0");
   EvaluateArguments& a = *arguments;
   command
@@ -198,13 +231,12 @@ void add_evaluate(CLI::App& app, CommandContext& context) {
       ->check(CLI::Range(0, 1024));
   command->add_option("--negatives", a.negatives,
                       "A data set without any of the objects: every answer in it is false");
-  command->add_option("--require", a.require,
-                      "Fail unless met, e.g. recall=0.95,precision=0.99,false_positives=0");
-  command
-      ->add_option("--dump", a.dump,
-                   "Write every detection and every miss to FILE, a line of JSON each")
-      ->type_name("FILE");
-  command->add_flag("--json", a.json, "One line of JSON for each data set");
+  add_names(*command, "--compare", a.peers, peer_names(), "Run the usual OpenCV scripts as well");
+  add_names(*command, "--table", a.tables, paper_result_names(),
+            "The paper's evaluation beside its own numbers; all: what the data set can give");
+  add_names(*command, "--sweep", a.sweeps, sweep_names(),
+            "Disturb the pictures more and more and see when it fails");
+  add_outputs(*command, a);
   command->callback([arguments, &context] { run(*arguments, context); });
 }
 

@@ -6,6 +6,7 @@
 #include <opencv2/features2d.hpp>
 
 #include "posevote/core/error.hpp"
+#include "posevote/evaluate/summary.hpp"
 
 namespace posevote {
 namespace {
@@ -95,6 +96,26 @@ Detection find_view(const View& view, const PeerFeatures& taught, const PeerFeat
   return detection;
 }
 
+std::vector<std::string> comparison_row(const std::string& name, const Dataset& dataset,
+                                        const std::vector<TestOutcome>& outcomes,
+                                        const Dataset& negatives,
+                                        const std::vector<TestOutcome>& negative_outcomes) {
+  const Summary s = summarize(name, dataset, outcomes);
+  const Summary none = summarize(name, negatives, negative_outcomes);
+  const Interval interval = s.recall_interval();
+  return {name,
+          std::to_string(s.asked),
+          std::to_string(s.right),
+          percent(s.recall()),
+          fixed(100 * interval.low, 1) + ".." + fixed(100 * interval.high, 1),
+          std::to_string(s.false_positives),
+          std::to_string(s.twins),
+          percent(s.precision()),
+          none.images > 0 ? std::to_string(none.false_positives) : "-",
+          fixed(s.total.median_ms, 0),
+          fixed(s.total.p95_ms, 0)};
+}
+
 }  // namespace
 
 struct Peer::State {
@@ -158,6 +179,31 @@ RecognitionResult Peer::recognize(const cv::Mat& picture) const {
   std::ranges::stable_sort(result.detections, std::greater{}, &Detection::confidence);
   result.time_ms.total = ms_since(begin);
   return result;
+}
+
+ReportSection compare_peers(const std::vector<std::string>& names, const Evaluation& ours,
+                            const TaughtDataset& taught, const Method& method) {
+  Table table;
+  table.title = ours.dataset.name + ": peers";
+  table.header = {"method", "asked",     "right",      "recall", "95 %", "false",
+                  "twins",  "precision", "neg. false", "ms",     "p95"};
+  table.rows.push_back(comparison_row("posevote", ours.dataset, ours.outcomes, ours.negatives,
+                                      ours.negative_outcomes));
+  for (const std::string& name : names) {
+    const Peer peer(name, *taught.models, method.jobs);
+    const auto run = [&](const Dataset& dataset) {
+      return run_tests(
+          dataset, [&](const cv::Mat& picture) { return peer.recognize(picture); }, method.jobs,
+          task(method.progress, dataset.name + ": " + name));
+    };
+    table.rows.push_back(
+        comparison_row(name, ours.dataset, run(ours.dataset), ours.negatives, run(ours.negatives)));
+  }
+  table.note =
+      "Peers: for each view two nearest neighbours, ratio 0.75, homography by RANSAC with 5 px, at "
+      "least 10 inliers, the view's silhouette projected; the same views, masks and pictures, in "
+      "the same run.";
+  return {ours.dataset.name + ": against the usual script", "", {table}, {}};
 }
 
 }  // namespace posevote

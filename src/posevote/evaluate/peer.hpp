@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "posevote/evaluate/evaluator.hpp"
+#include "posevote/evaluate/method.hpp"
+#include "posevote/evaluate/report.hpp"
 
 namespace posevote {
 
@@ -29,5 +31,10 @@ class Peer {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// The peers on the same pictures, beside the evaluation: a row for each.
+[[nodiscard]] ReportSection compare_peers(const std::vector<std::string>& names,
+                                          const Evaluation& ours, const TaughtDataset& taught,
+                                          const Method& method);
 
 }  // namespace posevote

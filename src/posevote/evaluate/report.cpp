@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "posevote/core/error.hpp"
 #include "posevote/evaluate/cases.hpp"
@@ -156,6 +157,23 @@ ChartSeries alarms_over_threshold(const std::string& name,
 }
 
 }  // namespace
+
+std::string to_text(const ReportSection& section) {
+  std::string text = section.title + "\n\n";
+  if (!section.text.empty()) text += section.text + "\n\n";
+  for (const Table& table : section.tables) text += table.to_text() + "\n";
+  return text;
+}
+
+std::string to_json(const ReportSection& section) {
+  nlohmann::ordered_json tables = nlohmann::ordered_json::array();
+  for (const Table& table : section.tables)
+    tables.push_back({{"title", table.title},
+                      {"header", table.header},
+                      {"rows", table.rows},
+                      {"note", table.note}});
+  return nlohmann::ordered_json{{"title", section.title}, {"tables", tables}}.dump();
+}
 
 Chart precision_recall_chart(const Evaluation& evaluation) {
   Chart chart{"Precision over recall", {"recall", 0, 1}, {"precision", 0, 1}, {}};

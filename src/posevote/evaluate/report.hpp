@@ -19,6 +19,11 @@ struct ReportSection {
   std::vector<Chart> charts;
 };
 
+/// Title, text and tables, for terminals.
+[[nodiscard]] std::string to_text(const ReportSection& section);
+/// Title and tables as one line of JSON.
+[[nodiscard]] std::string to_json(const ReportSection& section);
+
 struct ReportOptions {
   int max_cases = 24;       ///< pictures of each kind: false, missed, twins
   int picture_width = 480;  ///< px; wider pictures are reduced

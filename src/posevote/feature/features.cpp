@@ -17,6 +17,12 @@ void SurfOptions::describe(OptionList& list) {
   list.add("layers", layers, {1, 8}, "",
            "Layers per octave in which key points are looked for; two more filters enclose them.");
   list.add("upright", upright, "Leave out the orientation: for pictures that are never rotated.");
+  list.add("smooth", smooth,
+           "Filter the picture with a Gaussian of 1 px first: steadier features.");
+  list.add("double_size", double_size,
+           "Start on the picture enlarged by two: finds smaller things in four times the time.");
+  list.add("spread", spread, "With max_features: take the strongest of every part of the picture.");
+  list.add("threads", threads, {0, 64}, "", "Threads for one picture; 0 uses one per core.");
 }
 
 void SiftOptions::describe(OptionList& list) {

@@ -34,10 +34,14 @@ struct Features {
 
 /// Speeded-Up Robust Features (Bay et al., CVIU 110(3), 2008).
 struct SurfOptions {
-  double hessian_threshold = 100;
+  double hessian_threshold = 100;  ///< on OpenCV's scale for 8-bit pictures
   int octaves = 4;
-  int layers = 3;
-  bool upright = false;
+  int layers = 2;            ///< per octave, in which key points are looked for; 2 as in the paper
+  bool upright = false;      ///< all angles 0
+  bool smooth = true;        ///< first filter the picture with a Gaussian of 1 px
+  bool double_size = false;  ///< start one octave lower, on the picture enlarged by two
+  bool spread = false;       ///< with max_features: the strongest of every part of the picture
+  int threads = 1;           ///< 0: one per core; the answer is the same for any number
   void describe(OptionList& list);
 };
 

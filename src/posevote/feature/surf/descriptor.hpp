@@ -6,13 +6,13 @@
 
 namespace posevote::surf {
 
-inline constexpr int kDescriptorSize = 64;
+using simd::kDescriptorSize;
 
-/// Writes the descriptor of length 1 to `descriptor[0..63]`: for each of 4 x 4 squares of side 5 s
-/// (rows first, in the frame turned by the key point's angle) the sums of dx, dy, |dx|, |dy| of
-/// Haar wavelets of side 2 s at a spacing of s, with a Gaussian weight of 3.3 s. A sample is shared
-/// among the squares around it by bilinear weights, so that a small shift changes little. Outside
-/// the picture its border is continued. A patch without any contrast gives 64 equal numbers.
+/// Writes the descriptor of length 1 to `descriptor[0..63]`: for each of 4 x 4 squares (rows first,
+/// in the frame turned by the key point's angle) the sums of dx, dy, |dx|, |dy| of Haar wavelets of
+/// side 2 s at a spacing of s. The squares are 9 s wide and overlap by 4 s, with a Gaussian of 2.5
+/// s around the centre of each and one of 1.5 squares over all (Agrawal et al., ECCV 2008), so that
+/// a small shift changes little. A patch without any contrast gives 64 equal numbers.
 void describe(const Integral& integral, const Keypoint& keypoint, float* descriptor);
 
 }  // namespace posevote::surf

@@ -2,6 +2,7 @@
 // (Bay et al. 2008, sections 3.2 to 3.4).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,21 +21,63 @@ namespace posevote::surf {
   return size * (1.2F / 9);
 }
 
-/// The three second derivatives as plain sums of pixels, each times the size of the filter's area.
-struct SecondDerivatives {
-  std::int32_t xx, yy, xy;
+/// What the second derivatives, sums of pixels, are multiplied by: equal blobs give equal
+/// determinants at all sizes, and for `size` 9 without mixed derivative that of OpenCV's SURF,
+/// which divides by the area of a lobe, 15 pixels.
+[[nodiscard]] constexpr float hessian_norm(int size) {
+  return 81.0F / 15 / static_cast<float>(size * size);
+}
+
+/// A pixel that is larger than its 26 neighbours in an octave.
+struct Candidate {
+  int octave = 0, layer = 0;
+  int x = 0, y = 0;  ///< px of the picture (without margin), multiples of the octave's step
+  std::array<std::array<std::array<float, 3>, 3>, 3> around{};  ///< [layer][y][x], steps apart
+  [[nodiscard]] float response() const { return around[1][1][1]; }
 };
 
-/// Precondition: the filter of `size` (9, 15, ...) around pixel (x, y) lies inside the picture.
-[[nodiscard]] SecondDerivatives second_derivatives(const Integral& integral, int size, int x,
-                                                   int y);
+/// The search over all octaves; keeps its buffers between pictures.
+class BlobSearch {
+ public:
+  void prepare(const Integral& integral, const SurfOptions& options, int team_size);
+  /// Each member of a team calls this once; returns its share of the candidates of at least the
+  /// threshold. The union is the same for any team; the order is not.
+  const std::vector<Candidate>& search(const Member& member);
 
-/// Determinant of the Hessian; scaled so that equal blobs give equal values at all sizes, and that
-/// the value for `size` 9 is that of OpenCV's SURF where `xy` is 0.
-[[nodiscard]] float hessian_determinant(const SecondDerivatives& derivatives, int size);
+ private:
+  // Every second row and column of a layer, which is a layer of the next octave too.
+  struct Kept {
+    int size = 0, stride = 0;
+    std::vector<float> values;
+  };
+  struct Part {
+    std::vector<float> ring;  // three rows of every layer
+    std::vector<float> full;  // one row at every pixel
+    std::vector<int> columns;
+    std::vector<Candidate> candidates;
+  };
 
-/// All maxima above `threshold`, interpolated; angle 0. In scan order of octave, layer, y, x.
-[[nodiscard]] std::vector<Keypoint> find_blobs(const Integral& integral,
-                                               const SurfOptions& options);
+  void prepare_kept();
+  void search_octave(int octave, const Member& member, Part& part);
+  void fill_row(int octave, int layer, int j, Part& part, float* row) const;
+  void keep_row(int octave, int layer, int j, const float* row);
+  void find_in_row(int octave, int j, Part& part) const;
+  [[nodiscard]] float* ring_row(Part& part, int layer, int j) const;
+  [[nodiscard]] int samples(int total, int octave) const { return ((total - 1) >> octave) + 1; }
+  [[nodiscard]] int columns_of(int octave) const { return samples(width_, octave); }
+  [[nodiscard]] int rows_of(int octave) const { return samples(height_, octave); }
+  [[nodiscard]] int border(int octave, int layer) const;
+
+  const Integral* integral_ = nullptr;
+  SurfOptions options_;
+  int width_ = 0, height_ = 0;  // of the picture, without margin
+  int ring_stride_ = 0;
+  std::vector<std::vector<Kept>> kept_;  // of each octave, what the one before has computed
+  std::vector<Part> parts_;
+};
+
+/// The key point of a candidate: place and scale of the maximum of the quadric through the 27
+/// values (Brown and Lowe 2002), angle 0. False when the maximum lies a whole step or more away.
+[[nodiscard]] bool refine(const Candidate& candidate, const Integral& integral, Keypoint& keypoint);
 
 }  // namespace posevote::surf

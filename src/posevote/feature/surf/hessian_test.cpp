@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "posevote/feature/made_pictures.hpp"
 
@@ -23,46 +25,170 @@ Weights weights_at(int size, int u, int v) {
   return {second(u, v), second(v, u), corner ? ((u > 0) == (v > 0) ? 1 : -1) : 0};
 }
 
-TEST(Integral, IsThePlainSumOfEveryRectangle) {
-  const cv::Mat grey = made::texture(13, 9);
+Integral integral_of(const cv::Mat& grey, bool smooth = false, int team_size = 1) {
   Integral integral;
-  integral.compute(grey);
-  for (int y0 = 0; y0 <= 9; ++y0)
-    for (int y1 = y0; y1 <= 9; ++y1)
-      for (int x0 = 0; x0 <= 13; ++x0)
-        for (int x1 = x0; x1 <= 13; ++x1)
-          ASSERT_EQ(integral.box(x0, y0, x1, y1),
-                    static_cast<unsigned>(cv::sum(grey(cv::Range(y0, y1), cv::Range(x0, x1)))[0]));
+  integral.prepare(grey, smooth, team_size);
+  run_team(team_size, [&](const Member& member) { integral.compute(member); });
+  return integral;
+}
+
+cv::Mat with_margin(const cv::Mat& grey) {
+  cv::Mat extended;
+  cv::copyMakeBorder(grey, extended, kMargin, kMargin, kMargin, kMargin, cv::BORDER_REPLICATE);
+  return extended;
+}
+
+TEST(Integral, IsThePlainSumOfEveryRectangle) {
+  const cv::Mat grey = made::texture(5, 3), extended = with_margin(grey);
+  const Integral integral = integral_of(grey);
+  ASSERT_EQ(cv::Size(integral.width(), integral.height()), extended.size());
+  for (int y0 = 0; y0 <= extended.rows; y0 += 3)
+    for (int y1 = y0; y1 <= extended.rows; y1 += 5)
+      for (int x0 = 0; x0 <= extended.cols; x0 += 3)
+        for (int x1 = x0; x1 <= extended.cols; x1 += 4)
+          ASSERT_EQ(
+              integral.box(x0, y0, x1, y1),
+              static_cast<unsigned>(cv::sum(extended(cv::Range(y0, y1), cv::Range(x0, x1)))[0]));
 }
 
 TEST(Integral, SmallSumsStayExactWhenTheTotalOverflows) {
   const cv::Mat white(4200, 4200, CV_8U, cv::Scalar(255));  // 4.5e9 > 2^32
-  Integral integral;
-  integral.compute(white);
+  const Integral integral = integral_of(white);
   EXPECT_EQ(integral.box(4190, 4190, 4200, 4200), 25500U);
 }
 
-TEST(SecondDerivatives, AreTheWeightedSumsOfTheirDefinition) {
-  const cv::Mat grey = made::texture(80, 70);
-  Integral integral;
-  integral.compute(grey);
-  for (const int size : {9, 15, 21, 27, 39, 51})
-    for (const cv::Point at : {cv::Point(40, 35), cv::Point(size / 2, size / 2),
-                               cv::Point(79 - size / 2, 69 - size / 2)}) {
-      SecondDerivatives expected{};
-      for (int v = -(size / 2); v <= size / 2; ++v)
-        for (int u = -(size / 2); u <= size / 2; ++u) {
-          const Weights weights = weights_at(size, u, v);
-          const int pixel = grey.at<std::uint8_t>(at.y + v, at.x + u);
-          expected.xx += weights.xx * pixel;
-          expected.yy += weights.yy * pixel;
-          expected.xy += weights.xy * pixel;
-        }
-      const SecondDerivatives found = second_derivatives(integral, size, at.x, at.y);
-      EXPECT_EQ(found.xx, expected.xx) << size;
-      EXPECT_EQ(found.yy, expected.yy) << size;
-      EXPECT_EQ(found.xy, expected.xy) << size;
+TEST(Integral, SmoothsByTheBinomialFilter) {
+  for (const cv::Size size :
+       {cv::Size(1, 1), cv::Size(3, 2), cv::Size(4, 9), cv::Size(5, 5), cv::Size(61, 40)}) {
+    const cv::Mat grey = made::texture(size.width, size.height);
+    const cv::Mat kernel = (cv::Mat_<float>(1, 5) << 1, 4, 6, 4, 1) / 16;
+    cv::Mat smoothed, exact;
+    grey.convertTo(exact, CV_32F);
+    cv::sepFilter2D(exact, exact, -1, kernel, kernel, {-1, -1}, 0, cv::BORDER_REPLICATE);
+    const Integral integral = integral_of(grey, true);
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x)
+        ASSERT_NEAR(integral.box(x + kMargin, y + kMargin, x + kMargin + 1, y + kMargin + 1),
+                    exact.at<float>(y, x), 0.501);
+  }
+}
+
+TEST(Integral, IsTheSameForAnyTeam) {
+  const cv::Mat grey = made::texture(70, 50);
+  const Integral alone = integral_of(grey, true, 1);
+  for (const int team : {2, 3, 7, 64}) {
+    const Integral shared = integral_of(grey, true, team);
+    for (int y = 0; y <= alone.height(); ++y)
+      for (int x = 0; x <= alone.width(); ++x) ASSERT_EQ(shared.at(y, x), alone.at(y, x));
+  }
+}
+
+// The determinant by its definition.
+float determinant_at(const cv::Mat& extended, int size, int x, int y) {
+  double xx = 0, yy = 0, xy = 0;
+  for (int v = -(size / 2); v <= size / 2; ++v)
+    for (int u = -(size / 2); u <= size / 2; ++u) {
+      const Weights weights = weights_at(size, u, v);
+      const int pixel = extended.at<std::uint8_t>(y + kMargin + v, x + kMargin + u);
+      xx += weights.xx * pixel;
+      yy += weights.yy * pixel;
+      xy += weights.xy * pixel;
     }
+  const double norm = hessian_norm(size);
+  return static_cast<float>((xx * yy - 0.81 * xy * xy) * norm * norm);
+}
+
+TEST(HessianRow, IsTheWeightedSumOfItsDefinition) {
+  const cv::Mat grey = made::texture(80, 70), extended = with_margin(grey);
+  const Integral integral = integral_of(grey);
+  for (const int size : {9, 15, 21, 27, 39, 51})
+    for (const cv::Point at : {cv::Point(40, 35), cv::Point(0, 0), cv::Point(79, 69)}) {
+      float found = 0;
+      simd::hessian_row(integral.view(), at.x + kMargin, at.y + kMargin, 1, size / 3,
+                        hessian_norm(size), &found);
+      const float expected = determinant_at(extended, size, at.x, at.y);
+      EXPECT_NEAR(found, expected, 1e-3 + 1e-4 * std::abs(expected)) << size;
+    }
+}
+
+std::vector<Candidate> search(const cv::Mat& grey, const SurfOptions& options, int team_size = 1) {
+  const Integral integral = integral_of(grey, options.smooth);
+  BlobSearch blobs;
+  std::vector<std::vector<Candidate>> shares(team_size);
+  blobs.prepare(integral, options, team_size);
+  run_team(team_size, [&](const Member& member) { shares[member.index()] = blobs.search(member); });
+  std::vector<Candidate> all;
+  for (const auto& share : shares) all.insert(all.end(), share.begin(), share.end());
+  std::ranges::sort(all, {},
+                    [](const Candidate& c) { return std::tuple(c.octave, c.layer, c.y, c.x); });
+  return all;
+}
+
+// Every sample of every octave against its 26 neighbours, without strips, rings or reuse.
+std::vector<Candidate> search_plainly(const cv::Mat& grey, const SurfOptions& options) {
+  const Integral integral = integral_of(grey, options.smooth);
+  std::vector<Candidate> all;
+  for (int octave = 0; octave < options.octaves; ++octave)
+    for (int layer = 1; layer <= options.layers; ++layer) {
+      const int step = 1 << octave;
+      const int reach = std::max(0, filter_size(octave, layer + 1) / 2 - kMargin) + step;
+      for (int y = 0; y < grey.rows; y += step)
+        for (int x = 0; x < grey.cols; x += step) {
+          if (x < step || y < step || x + step >= grey.cols || y + step >= grey.rows) continue;
+          if (x < reach || y < reach || x + reach >= grey.cols || y + reach >= grey.rows) continue;
+          Candidate candidate{octave, layer, x, y, {}};
+          bool is_maximum = true;
+          for (int k = 0; k < 27; ++k) {
+            const int size = filter_size(octave, layer - 1 + k / 9);
+            simd::plain::hessian_row(integral.view(), x + (k % 3 - 1) * step + kMargin,
+                                     y + (k / 3 % 3 - 1) * step + kMargin, 1, size / 3,
+                                     hessian_norm(size),
+                                     &candidate.around[k / 9][k / 3 % 3][k % 3]);
+          }
+          for (int k = 0; k < 27; ++k)
+            is_maximum &=
+                k == 13 || candidate.around[k / 9][k / 3 % 3][k % 3] < candidate.response();
+          if (is_maximum && candidate.response() >= options.hessian_threshold)
+            all.push_back(candidate);
+        }
+    }
+  return all;
+}
+
+void expect_same(const std::vector<Candidate>& found, const std::vector<Candidate>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(std::tie(found[i].octave, found[i].layer, found[i].x, found[i].y),
+              std::tie(expected[i].octave, expected[i].layer, expected[i].x, expected[i].y));
+    EXPECT_EQ(found[i].around, expected[i].around);
+  }
+}
+
+TEST(BlobSearch, FindsWhatThePlainSearchFinds) {
+  for (const cv::Size size : {cv::Size(130, 101), cv::Size(97, 160), cv::Size(20, 30)})
+    for (const int layers : {1, 2, 3}) {
+      SurfOptions options;
+      options.hessian_threshold = 10;
+      options.layers = layers;
+      const cv::Mat grey = made::texture(size.width, size.height);
+      expect_same(search(grey, options), search_plainly(grey, options));
+    }
+}
+
+TEST(BlobSearch, IsTheSameForAnyTeam) {
+  const cv::Mat grey = made::texture(150, 133);
+  const auto alone = search(grey, {}, 1);
+  ASSERT_GT(alone.size(), 20U);
+  for (const int team : {2, 3, 5, 16}) expect_same(search(grey, {}, team), alone);
+}
+
+std::vector<Keypoint> find_blobs(const cv::Mat& grey, const SurfOptions& options) {
+  const Integral integral = integral_of(grey);
+  std::vector<Keypoint> blobs;
+  Keypoint blob;
+  for (const Candidate& candidate : search(grey, options))
+    if (refine(candidate, integral, blob)) blobs.push_back(blob);
+  return blobs;
 }
 
 TEST(FilterSize, FollowsThePaper) {
@@ -79,9 +205,9 @@ class Spot : public testing::TestWithParam<std::tuple<double, bool>> {};
 TEST_P(Spot, IsFoundAtItsPlaceScaleAndSign) {
   const auto [sigma, dark] = GetParam();
   const double x = 150.3, y = 140.8;
-  Integral integral;
-  integral.compute(made::spot(300, 290, x, y, sigma, dark));
-  const auto blobs = find_blobs(integral, SurfOptions{});
+  SurfOptions options;
+  options.smooth = false;
+  const auto blobs = find_blobs(made::spot(300, 290, x, y, sigma, dark), options);
   ASSERT_FALSE(blobs.empty());
   const Keypoint& best = *std::ranges::max_element(blobs, {}, &Keypoint::response);
   EXPECT_NEAR(best.x, x, 0.1 * sigma);
@@ -95,18 +221,29 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Spot,
                          testing::Combine(testing::Values(2.8, 4.0, 6.5, 10.0, 16.0),
                                           testing::Bool()));
 
-TEST(FindBlobs, ThresholdLeavesOutExactlyTheWeaker) {
-  Integral integral;
-  integral.compute(made::texture(200, 150));
+TEST(BlobSearch, ThresholdLeavesOutExactlyTheWeaker) {
+  const cv::Mat grey = made::texture(200, 150);
   SurfOptions options;
-  const auto all = find_blobs(integral, options);
-  options.hessian_threshold = 2000;
-  const auto strong = find_blobs(integral, options);
-  const auto expected =
-      std::ranges::count_if(all, [](const Keypoint& k) { return k.response >= 2000; });
-  EXPECT_GT(strong.size(), 0U);
-  EXPECT_LT(strong.size(), all.size());
-  EXPECT_EQ(strong.size(), static_cast<std::size_t>(expected));
+  auto expected = search(grey, options);
+  const std::size_t all = expected.size();
+  options.hessian_threshold = 500;
+  std::erase_if(expected, [](const Candidate& c) { return c.response() < 500; });
+  EXPECT_GT(expected.size(), 0U);
+  EXPECT_LT(expected.size(), all);
+  expect_same(search(grey, options), expected);
+}
+
+TEST(Refine, RefusesAMaximumThatLiesElsewhere) {
+  const Integral integral = integral_of(made::texture(60, 50));
+  Candidate candidate{0, 1, 30, 25, {}};
+  // A ridge along the diagonal that hardly falls: the quadric's top is 4.5 steps away in x and y.
+  for (auto& plane : candidate.around)
+    for (auto& row : plane) row = {2.9F, 2.9F, 2.9F};
+  candidate.around[1] = {{{2.99F, 2.9F, 2.79F}, {2.9F, 3.0F, 2.99F}, {2.79F, 2.99F, 2.99F}}};
+  Keypoint keypoint;
+  EXPECT_FALSE(refine(candidate, integral, keypoint));
+  candidate.around = {};
+  EXPECT_FALSE(refine(candidate, integral, keypoint));  // flat: no maximum at all
 }
 
 }  // namespace

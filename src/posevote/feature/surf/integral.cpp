@@ -1,26 +1,96 @@
 #include "posevote/feature/surf/integral.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace posevote::surf {
+namespace {
 
-void Integral::compute(const cv::Mat& grey) {
-  width_ = grey.cols;
-  height_ = grey.rows;
-  stride_ = static_cast<std::size_t>(width_) + 1;
-  sums_.resize(stride_ * (height_ + 1));
-  std::fill_n(sums_.begin(), stride_, 0U);
-  for (int y = 0; y < height_; ++y) {
-    const std::uint8_t* pixels = grey.ptr<std::uint8_t>(y);
-    const std::uint32_t* above = &sums_[y * stride_];
+// Rows an odd number of cache lines apart: rows 4096 bytes apart would share their cache sets.
+std::ptrdiff_t padded_stride(int width) {
+  const std::ptrdiff_t lines = width / 16 + 1;
+  return (lines | 1) * 16;
+}
+
+std::uint8_t smooth_pixel(const std::uint8_t* const rows[5], int x, int width) {
+  constexpr int kWeights[5] = {1, 4, 6, 4, 1};
+  int sum = 128;
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 5; ++i)
+      sum += kWeights[j] * kWeights[i] * rows[j][std::clamp(x + i - 2, 0, width - 1)];
+  return static_cast<std::uint8_t>(sum >> 8);
+}
+
+void smooth_whole_row(const cv::Mat& grey, int y, std::uint16_t* scratch, std::uint8_t* out) {
+  const std::uint8_t* rows[5];
+  for (int i = 0; i < 5; ++i) rows[i] = grey.ptr(std::clamp(y + i - 2, 0, grey.rows - 1));
+  const int edge = std::min(2, grey.cols), inner_end = std::max(edge, grey.cols - 2);
+  for (int x = 0; x < edge; ++x) out[x] = smooth_pixel(rows, x, grey.cols);
+  for (int x = inner_end; x < grey.cols; ++x) out[x] = smooth_pixel(rows, x, grey.cols);
+  if (inner_end == edge) return;
+  for (const std::uint8_t*& row : rows) row += edge;
+  simd::smooth_row(rows, inner_end - edge, scratch, out + edge);
+}
+
+}  // namespace
+
+void Integral::prepare(const cv::Mat& grey, bool smooth, int team_size) {
+  grey_ = grey;
+  smooth_ = smooth;
+  width_ = grey.cols + 2 * kMargin;
+  height_ = grey.rows + 2 * kMargin;
+  stride_ = padded_stride(width_);
+  pixel_stride_ = width_;
+  pixels_.resize(static_cast<std::size_t>(pixel_stride_) * height_);
+  sums_.resize(static_cast<std::size_t>(stride_) * (height_ + 1));
+  parts_.resize(team_size);
+  for (Part& part : parts_) {
+    part.columns.resize(width_);
+    part.above.resize(width_);
+    part.scratch.resize(grey.cols + 36);
+  }
+}
+
+void Integral::fill_row(int y, std::uint16_t* scratch) {
+  const int source = std::clamp(y - kMargin, 0, grey_.rows - 1);
+  std::uint8_t* row = pixels(y);
+  std::uint8_t* inner = row + kMargin;
+  if (smooth_)
+    smooth_whole_row(grey_, source, scratch, inner);
+  else
+    std::memcpy(inner, grey_.ptr(source), grey_.cols);
+  std::memset(row, inner[0], kMargin);
+  std::memset(inner + grey_.cols, inner[grey_.cols - 1], kMargin);
+}
+
+void Integral::compute(const Member& member) {
+  const int begin = member.begin(height_), end = member.end(height_);
+  Part& part = parts_[member.index()];
+  const bool alone = member.count() == 1;
+  if (!alone) {
+    std::ranges::fill(part.columns, 0U);
+    for (int y = begin; y < end; ++y) {
+      fill_row(y, part.scratch.data());
+      const std::uint8_t* row = pixels(y);
+      for (int x = 0; x < width_; ++x) part.columns[x] += row[x];
+    }
+    member.wait();
+  }
+  std::uint32_t sum = 0;
+  for (int x = 0; x < width_; ++x) {
+    for (int k = 0; k < member.index(); ++k) sum += parts_[k].columns[x];
+    part.above[x] = sum;
+  }
+  if (begin == 0) std::fill_n(sums_.begin(), width_ + 1, 0U);
+  const std::uint32_t* above = part.above.data();
+  for (int y = begin; y < end; ++y) {
+    if (alone) fill_row(y, part.scratch.data());
     std::uint32_t* row = &sums_[(y + 1) * stride_];
     row[0] = 0;
-    std::uint32_t sum = 0;
-    for (int x = 0; x < width_; ++x) {
-      sum += pixels[x];
-      row[x + 1] = above[x + 1] + sum;
-    }
+    simd::integral_row(pixels(y), above, width_, row + 1);
+    above = row + 1;
   }
+  member.wait();
 }
 
 }  // namespace posevote::surf

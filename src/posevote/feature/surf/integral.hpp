@@ -5,30 +5,52 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "posevote/feature/simd/kernels.hpp"
+#include "posevote/feature/surf/team.hpp"
+
 namespace posevote::surf {
+
+/// The summed picture has a border of kMargin pixels all round that continues the outermost pixels:
+/// filters near the border see no edge there. Pixel (x, y) of the picture is (x + kMargin,
+/// y + kMargin) of the summed one; all coordinates below are those of the summed one.
+inline constexpr int kMargin = 32;
 
 /// at(y, x) is the sum of the pixels in the rows above y and the columns left of x, modulo 2^32:
 /// differences are exact as long as the rectangle's own sum is below 2^32.
 class Integral {
  public:
-  /// `grey`: CV_8UC1, not empty.
-  void compute(const cv::Mat& grey);
+  /// Makes room; keeps the buffers of earlier pictures. `grey`: CV_8UC1, not empty, may be shared.
+  void prepare(const cv::Mat& grey, bool smooth, int team_size);
+  /// Each member of a team calls this once after one of them has called `prepare`; the sums are
+  /// ready when all have returned from it.
+  void compute(const Member& member);
 
-  [[nodiscard]] int width() const noexcept { return width_; }    ///< px
-  [[nodiscard]] int height() const noexcept { return height_; }  ///< px
-  [[nodiscard]] std::uint32_t at(int y, int x) const {
-    return sums_[static_cast<std::size_t>(y) * stride_ + x];
-  }
+  [[nodiscard]] int width() const noexcept { return width_; }    ///< px, with both margins
+  [[nodiscard]] int height() const noexcept { return height_; }  ///< px, with both margins
+  [[nodiscard]] std::uint32_t at(int y, int x) const { return sums_[y * stride_ + x]; }
   /// Sum of the pixels x0 <= x < x1, y0 <= y < y1. Precondition: 0 <= x0 <= x1 <= width, same for
   /// y.
   [[nodiscard]] std::uint32_t box(int x0, int y0, int x1, int y1) const {
     return at(y1, x1) - at(y1, x0) - at(y0, x1) + at(y0, x0);
   }
+  [[nodiscard]] simd::SumsView view() const { return {sums_.data(), stride_, width_, height_}; }
 
  private:
+  void fill_row(int y, std::uint16_t* scratch);
+  [[nodiscard]] std::uint8_t* pixels(int y) { return &pixels_[y * pixel_stride_]; }
+
+  cv::Mat grey_;
+  bool smooth_ = false;
   int width_ = 0, height_ = 0;
-  std::size_t stride_ = 0;
+  std::ptrdiff_t stride_ = 0, pixel_stride_ = 0;
+  std::vector<std::uint8_t> pixels_;
   std::vector<std::uint32_t> sums_;
+  struct Part {
+    std::vector<std::uint32_t> columns;  // sums of the member's rows
+    std::vector<std::uint32_t> above;    // the sums above its first row
+    std::vector<std::uint16_t> scratch;
+  };
+  std::vector<Part> parts_;
 };
 
 }  // namespace posevote::surf

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <thread>
+#include <tuple>
 
 #include "posevote/feature/made_pictures.hpp"
 
@@ -108,9 +110,83 @@ TEST(Surf, OrientationPointsUpTheGradient) {
   }
 }
 
+bool are_identical(const Features& a, const Features& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Keypoint &p = a.keypoints[i], &q = b.keypoints[i];
+    if (std::tie(p.x, p.y, p.scale, p.angle, p.response, p.laplacian) !=
+        std::tie(q.x, q.y, q.scale, q.angle, q.response, q.laplacian))
+      return false;
+  }
+  return a.empty() || cv::norm(a.descriptors, b.descriptors, cv::NORM_INF) == 0;
+}
+
+TEST(Surf, AnyNumberOfThreadsGivesTheSameBits) {
+  const cv::Mat picture = made::texture(301, 203);
+  FeatureOptions options;
+  for (const int limit : {0, 100}) {
+    options.max_features = limit;
+    options.surf.threads = 1;
+    const auto expected = make_extractor(options)->extract(picture);
+    for (const int threads : {2, 3, 8, 0}) {
+      options.surf.threads = threads;
+      EXPECT_TRUE(are_identical(make_extractor(options)->extract(picture), expected)) << threads;
+    }
+  }
+}
+
+TEST(Surf, OneExtractorServesManyThreadsAndPicturesOfAllSizes) {
+  const auto extractor = make_extractor(FeatureOptions{});
+  std::vector<cv::Mat> pictures;
+  std::vector<Features> expected;
+  for (const int width : {300, 40, 1, 160}) {
+    pictures.push_back(made::texture(width, 120));
+    expected.push_back(make_extractor(FeatureOptions{})->extract(pictures.back()));
+  }
+  std::vector<std::jthread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 8; ++i) {
+        const std::size_t k = static_cast<std::size_t>(t + i) % pictures.size();
+        EXPECT_TRUE(are_identical(extractor->extract(pictures[k]), expected[k]));
+      }
+    });
+}
+
+TEST(Surf, DoubleSizeFindsASpotTooSmallOtherwise) {
+  const cv::Mat picture = made::spot(80, 60, 40.3, 30.6, 1.2, true);
+  FeatureOptions options;
+  options.max_features = 1;
+  EXPECT_TRUE(make_extractor(options)->extract(picture).empty());
+  options.surf.double_size = true;
+  const auto features = make_extractor(options)->extract(picture);
+  ASSERT_EQ(features.size(), 1U);
+  EXPECT_NEAR(features.keypoints[0].x, 40.3, 0.2);
+  EXPECT_NEAR(features.keypoints[0].y, 30.6, 0.2);
+}
+
+TEST(Surf, SpreadTakesFeaturesOfWeakPartsToo) {
+  cv::Mat picture = made::texture(400, 200);
+  cv::Mat weak = picture.colRange(200, 400);
+  weak.convertTo(weak, CV_8U, 0.5, 64);
+  FeatureOptions options;
+  options.surf.hessian_threshold = 1;
+  options.max_features = 60;
+  const auto count_weak = [&] {
+    const auto features = make_extractor(options)->extract(picture);
+    EXPECT_EQ(features.size(), 60U);
+    return std::ranges::count_if(features.keypoints, [](const Keypoint& k) { return k.x > 210; });
+  };
+  const auto before = count_weak();
+  options.surf.spread = true;
+  EXPECT_GT(count_weak(), before + 10);
+}
+
 TEST(Surf, NegativePictureTurnsTheSign) {
   const cv::Mat picture = made::texture(160, 120);
-  const auto extractor = make_extractor(FeatureOptions{});
+  FeatureOptions options;
+  options.surf.smooth = false;  // rounds halves up, in the negative too
+  const auto extractor = make_extractor(options);
   const auto positive = extractor->extract(picture);
   const auto negative = extractor->extract(255 - picture);
   ASSERT_EQ(positive.size(), negative.size());

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "posevote/feature/simd/kernels.hpp"
+
+namespace posevote::simd {
+
+const DescriptorWeights& descriptor_weights() {
+  static const DescriptorWeights weights = [] {
+    DescriptorWeights made{};
+    for (int i = 0; i < 9; ++i)
+      made.taps[i] = static_cast<float>(std::exp(-(i - 4) * (i - 4) / (2 * 2.5 * 2.5)));
+    for (int i = 0; i < 4; ++i)
+      made.squares[i] = static_cast<float>(std::exp(-(i - 1.5) * (i - 1.5) / (2 * 1.5 * 1.5)));
+    return made;
+  }();
+  return weights;
+}
+
+namespace plain {
+namespace {
+
+// Sum of the closed range around (x, y); differences of wrapped sums are exact.
+std::int32_t box(const SumsView& view, int x0, int y0, int x1, int y1) {
+  const std::uint32_t* top = view.sums + y0 * view.stride;
+  const std::uint32_t* bottom = view.sums + (y1 + 1) * view.stride;
+  return static_cast<std::int32_t>(bottom[x1 + 1] - bottom[x0] - top[x1 + 1] + top[x0]);
+}
+
+}  // namespace
+
+void smooth_row(const std::uint8_t* const rows[5], int count, std::uint16_t* scratch,
+                std::uint8_t* out) {
+  for (int x = -2; x < count + 2; ++x)
+    scratch[x + 2] = static_cast<std::uint16_t>(rows[0][x] + rows[4][x] +
+                                                4 * (rows[1][x] + rows[3][x]) + 6 * rows[2][x]);
+  for (int x = 0; x < count; ++x) {
+    const std::uint16_t* t = scratch + x;
+    out[x] = static_cast<std::uint8_t>((t[0] + t[4] + 4 * (t[1] + t[3]) + 6 * t[2] + 128) >> 8);
+  }
+}
+
+void integral_row(const std::uint8_t* pixels, const std::uint32_t* above, int count,
+                  std::uint32_t* out) {
+  std::uint32_t sum = 0;
+  for (int x = 0; x < count; ++x) {
+    sum += pixels[x];
+    out[x] = above[x] + sum;
+  }
+}
+
+void hessian_row(const SumsView& view, int x, int y, int count, int lobe, float norm, float* out) {
+  const int half = lobe + lobe / 2, middle = lobe / 2, wide = lobe - 1;
+  for (int i = 0; i < count; ++i, ++x) {
+    const std::int32_t xx = box(view, x - half, y - wide, x + half, y + wide) -
+                            3 * box(view, x - middle, y - wide, x + middle, y + wide);
+    const std::int32_t yy = box(view, x - wide, y - half, x + wide, y + half) -
+                            3 * box(view, x - wide, y - middle, x + wide, y + middle);
+    const std::int32_t xy =
+        box(view, x - lobe, y - lobe, x - 1, y - 1) + box(view, x + 1, y + 1, x + lobe, y + lobe) -
+        box(view, x + 1, y - lobe, x + lobe, y - 1) - box(view, x - lobe, y + 1, x - 1, y + lobe);
+    const float fxx = static_cast<float>(xx) * norm, fyy = static_cast<float>(yy) * norm;
+    const float fxy = static_cast<float>(xy) * norm;
+    out[i] = fxx * fyy - fxy * fxy * 0.81F;
+  }
+}
+
+int find_maxima(const float* const rows[kMaximaRows], int count, float threshold, int* columns) {
+  int found = 0;
+  for (int x = 1; x + 1 < count; ++x) {
+    const float centre = rows[4][x];
+    bool is_maximum = centre >= threshold;
+    for (int row = 0; row < kMaximaRows && is_maximum; ++row)
+      for (int i = x - 1; i <= x + 1; ++i)
+        if ((row != 4 || i != x) && rows[row][i] >= centre) is_maximum = false;
+    if (is_maximum) columns[found++] = x;
+  }
+  return found;
+}
+
+void descriptor(const SumsView& view, const PatchFrame& frame, float* out) {
+  std::array<std::array<float, kPatchNodes>, kPatchNodes> patch;
+  const float shift = static_cast<float>(frame.side - 1) / 2;
+  for (int j = 0; j < kPatchNodes; ++j)
+    for (int i = 0; i < kPatchNodes; ++i) {
+      const auto u = static_cast<float>(i - 12), v = static_cast<float>(j - 12);
+      const float x = frame.x - shift + (u * frame.cosine - v * frame.sine);
+      const float y = frame.y - shift + (u * frame.sine + v * frame.cosine);
+      const int x0 = std::clamp(static_cast<int>(std::lrint(x)), 0, view.width - frame.side);
+      const int y0 = std::clamp(static_cast<int>(std::lrint(y)), 0, view.height - frame.side);
+      patch[j][i] = static_cast<float>(box(view, x0, y0, x0 + frame.side - 1, y0 + frame.side - 1));
+    }
+  const DescriptorWeights& weights = descriptor_weights();
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) {
+      float sums[4] = {};
+      for (int b = 0; b < 9; ++b)
+        for (int a = 0; a < 9; ++a) {
+          const int j = 5 * row + b, i = 5 * column + a;
+          const float weight = weights.taps[a] * weights.taps[b];
+          const float dx =
+              weight * (patch[j][i + 1] + patch[j + 1][i + 1] - patch[j][i] - patch[j + 1][i]);
+          const float dy =
+              weight * (patch[j + 1][i] + patch[j + 1][i + 1] - patch[j][i] - patch[j][i + 1]);
+          sums[0] += dx;
+          sums[1] += dy;
+          sums[2] += std::abs(dx);
+          sums[3] += std::abs(dy);
+        }
+      for (int k = 0; k < 4; ++k)
+        out[(row * 4 + column) * 4 + k] = sums[k] * weights.squares[row] * weights.squares[column];
+    }
+}
+
+}  // namespace plain
+}  // namespace posevote::simd

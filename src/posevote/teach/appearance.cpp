@@ -20,11 +20,13 @@ cv::Mat blurred(const cv::Mat& image, double sigma) {
   return result;
 }
 
-// log of how plausible a shading is: flat between the deepest shadow and 1.
-double log_prior_of_shading(double s, const ShadowOptions& options) {
+// log of how plausible a shading of a background of brightness `level` is: flat between the deepest
+// shadow and 1. Below, black is black: a few levels say nothing.
+double log_prior_of_shading(double s, double level, const ShadowOptions& options) {
+  constexpr double kBlackLevels = 4;
   if (s > 1) return -0.5 * std::pow((s - 1) / options.brighter, 2);
-  if (s < options.deepest) return -0.5 * std::pow((options.deepest - s) / 0.04, 2);
-  return 0;
+  const double below = (options.deepest - s) * level / kBlackLevels;
+  return below > 0 ? -0.5 * below * below : 0;
 }
 
 // Density of colour `p` for a background `b` whose shading is near `shading`: normal about the line
@@ -45,7 +47,8 @@ double shadow_density(const cv::Vec3f& p, const cv::Vec3f& b, const cv::Vec3f& v
   const double across = std::max(0.0, pp - s * up);
   const double spread2 = 1 / uu + options.unevenness * options.unevenness;
   const double along = (s - shading) * (s - shading) / spread2;
-  const double log_density = -0.5 * (across + along) + log_prior_of_shading(shading, options);
+  const double log_density =
+      -0.5 * (across + along) + log_prior_of_shading(shading, (b[0] + b[1] + b[2]) / 3, options);
   return std::exp(log_density) / (std::pow(kTwoPi, 1.5) * volume * std::sqrt(uu * spread2));
 }
 

@@ -25,8 +25,9 @@ cv::Mat cut_grid(const cv::Mat& log_odds, const GridEdges& edges, const cv::Mat&
   }
   // An edge to a closed pixel is a cost of the other label.
   const auto link = [&](cv::Point a, cv::Point b, const cv::Mat& weights, cv::Point owner) {
+    const int i = node.at<int>(a);
     if (b.x < 0 || b.x >= open.cols || b.y >= open.rows) return;
-    const int i = node.at<int>(a), j = node.at<int>(b);
+    const int j = node.at<int>(b);
     if (i < 0 && j < 0) return;
     const float w = weights.at<float>(owner);
     if (i >= 0 && j >= 0) {

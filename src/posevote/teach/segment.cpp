@@ -23,13 +23,27 @@ void check_type(const cv::Mat& picture) {
 }
 
 void refuse_moved_camera(const BackgroundFit& fit) {
-  // Unmoved, blocks of three times the noise correlate by 0.9; strange ones by about 0.
+  // Unmoved, structure well above the noise correlates by 0.9 and more; strange ones by about 0.
   constexpr double kSameScene = 0.5;
   if (fit.texture_agreement < kSameScene) {
     throw Error(ErrorCode::unusable_view,
                 "the surroundings in the picture and in the background picture do not agree; the "
                 "camera has moved or the two do not belong together: fix the camera and take both "
                 "again");
+  }
+}
+
+// A camera's exposure and white balance drift by less; more is an object that fills the picture, or
+// another light.
+void refuse_other_light(const BackgroundFit& fit) {
+  constexpr double kExposure = 3, kWhiteBalance = 1.8;
+  const auto [low, high] = std::minmax_element(fit.gain.begin(), fit.gain.end());
+  if (*low < 1 / kExposure || *high > kExposure || *high > kWhiteBalance * *low) {
+    throw Error(
+        ErrorCode::unusable_view,
+        "the border of the picture has another brightness or colour than the background "
+        "picture; leave free background around the object, lock exposure and white balance, "
+        "and keep the light as it is");
   }
 }
 
@@ -72,15 +86,29 @@ cv::Mat working_copy(const cv::Mat& picture, cv::Size size) {
   return result;
 }
 
-// What separates two neighbours beyond the background's own texture: a step in brightness, measured
-// against the brightness range around (an object's border is as sharp as the camera sees, a
-// shadow's is a ramp), and a step in colour.
+// What separates two neighbours beyond the background's own texture: a step in brightness or
+// colour, measured against the range around: an object's border is as sharp as the camera sees, a
+// shadow's is a ramp.
 struct Novelty {
-  cv::Mat rest;   // CV_32FC3: picture - shading * expected
-  cv::Mat unit;   // CV_32FC3: direction of the background's colour
-  cv::Mat noise;  // CV_32F: standard deviation of one channel
-  cv::Mat range;  // CV_32F: range of brightness in the neighbourhood
+  cv::Mat rest;    // CV_32FC3: picture - shading * expected
+  cv::Mat unit;    // CV_32FC3: direction of the background's colour
+  cv::Mat noise;   // CV_32F: standard deviation of one channel
+  cv::Mat along;   // CV_32F: range of brightness in the neighbourhood
+  cv::Mat across;  // CV_32F: range of colour in the neighbourhood
 };
+
+// Largest minus smallest value in a window, the largest over the channels.
+cv::Mat local_range(const cv::Mat& image) {
+  const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {9, 9});
+  cv::Mat low, high;
+  cv::dilate(image, high, window);
+  cv::erode(image, low, window);
+  const cv::Mat range = high - low;
+  if (range.channels() == 1) return range;
+  std::vector<cv::Mat> planes;
+  cv::split(range, planes);
+  return cv::max(cv::max(planes[0], planes[1]), planes[2]);
+}
 
 Novelty novelty_of(const cv::Mat& picture, const cv::Mat& expected, const cv::Mat& shading,
                    const cv::Mat& variance) {
@@ -88,35 +116,33 @@ Novelty novelty_of(const cv::Mat& picture, const cv::Mat& expected, const cv::Ma
   n.rest = picture.clone();
   n.unit.create(picture.size(), CV_32FC3);
   n.noise.create(picture.size(), CV_32F);
-  cv::Mat change(picture.size(), CV_32F);
+  cv::Mat brightness(picture.size(), CV_32F), colour(picture.size(), CV_32FC3);
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
-      const cv::Vec3f b = expected.at<cv::Vec3f>(y, x);
+      const cv::Vec3f p = picture.at<cv::Vec3f>(y, x), b = expected.at<cv::Vec3f>(y, x);
       const cv::Vec3f v = variance.at<cv::Vec3f>(y, x);
       const float length = std::sqrt(b.dot(b));
       const cv::Vec3f unit = length > 1 ? cv::Vec3f(b / length) : cv::Vec3f::all(0.57735F);
       n.rest.at<cv::Vec3f>(y, x) -= shading.at<float>(y, x) * b;
       n.unit.at<cv::Vec3f>(y, x) = unit;
       n.noise.at<float>(y, x) = std::sqrt((v[0] + v[1] + v[2]) / 3);
-      change.at<float>(y, x) = (picture.at<cv::Vec3f>(y, x) - b).dot(unit);
+      brightness.at<float>(y, x) = (p - b).dot(unit);
+      colour.at<cv::Vec3f>(y, x) = p - p.dot(unit) * unit;
     }
   }
-  cv::Mat low, high;
-  const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {9, 9});
-  cv::dilate(change, high, window);
-  cv::erode(change, low, window);
-  n.range = high - low;
+  n.along = local_range(brightness);
+  n.across = local_range(colour);
   return n;
 }
 
 float edge_weight(const Novelty& n, cv::Point p, cv::Point q, double smoothness) {
+  constexpr float kSharp = 0.12F;  // share of the range within one pixel
   const cv::Vec3f step = n.rest.at<cv::Vec3f>(p) - n.rest.at<cv::Vec3f>(q);
   const float along = step.dot(n.unit.at<cv::Vec3f>(p));
   const float across2 = std::max(0.F, step.dot(step) - along * along);
   const float noise = n.noise.at<float>(p);
-  constexpr float kSharp = 0.12F;  // share of the range within one pixel
-  const float along_scale = 2 * noise + kSharp * n.range.at<float>(p);
-  const float across_scale = 3 * noise;
+  const float along_scale = 2 * noise + kSharp * n.along.at<float>(p);
+  const float across_scale = 2 * noise + kSharp * n.across.at<float>(p);
   const float d2 =
       along * along / (along_scale * along_scale) + across2 / (across_scale * across_scale);
   return static_cast<float>(smoothness) * (0.02F + 0.98F * std::exp(-0.5F * d2));
@@ -151,7 +177,7 @@ cv::Mat open_pixels(const cv::Mat& log_odds) {
 // Fills what is enclosed, unless the background itself is plainly seen through it (a handle): its
 // exact brightness or its texture, which a plain or shaded patch of the object would not show.
 void fill_holes(cv::Mat& mask, const cv::Mat& log_odds) {
-  constexpr double kSeen = -0.5;  // mean log odds per pixel
+  constexpr double kSeen = -0.2;  // mean log odds per pixel
   constexpr int kMinArea = 16;
   cv::Mat labels, stats, centroids;
   cv::Mat background;
@@ -203,17 +229,49 @@ float log_add(float a, float b) {
   return high + std::log1p(std::exp(std::min(a, b) - high));
 }
 
-cv::Mat object_log_odds(const cv::Mat& picture, const cv::Mat& variance, const cv::Mat& background,
-                        const ObjectColours& colours, const SegmentOptions& options) {
+// In [-1, 1]: is the mean over a window another than the background's? Plain patches can be told
+// from the lit background by this alone. Less is said by a patch that is darker than a background
+// that is dark itself: nearly every shadow is, between black and there is little else to be.
+cv::Mat change_map(const cv::Mat& picture, const cv::Mat& expected, const cv::Mat& variance) {
+  constexpr int kWindow = 5;
+  constexpr float kMeanNoise =
+      0.4F;                     // of the mean, in units of one pixel's: they are not independent
+  constexpr float kDoubt2 = 9;  // three standard deviations are as likely as not a change
+  constexpr float kDark = 16, kGrey = 128;  // levels
+  cv::Mat mean;
+  cv::boxFilter(picture - expected, mean, CV_32F, {kWindow, kWindow});
+  cv::Mat result(picture.size(), CV_32F);
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const cv::Vec3f m = mean.at<cv::Vec3f>(y, x), v = variance.at<cv::Vec3f>(y, x);
+      const cv::Vec3f b = expected.at<cv::Vec3f>(y, x);
+      float z2 = 0;
+      for (int c = 0; c < 3; ++c) z2 += m[c] * m[c] / (kMeanNoise * kMeanNoise * v[c]);
+      float change = (z2 - kDoubt2) / (z2 + kDoubt2);
+      if (change > 0 && m[0] + m[1] + m[2] < 0) {
+        const float level = std::max(1.F, (b[0] + b[1] + b[2]) / 3);
+        change *= std::clamp(std::log(level / kDark) / std::log(kGrey / kDark), 0.F, 1.F);
+      }
+      result.at<float>(y, x) = change;
+    }
+  }
+  return result;
+}
+
+cv::Mat object_log_odds(const cv::Mat& picture, const cv::Mat& expected, const cv::Mat& variance,
+                        const cv::Mat& background, const ObjectColours& colours,
+                        const SegmentOptions& options) {
   const cv::Mat coloured = colours.log_likelihood(picture);
   const cv::Mat plain = plain_log_likelihood(picture, variance, options.shadow);
+  const cv::Mat change = change_map(picture, expected, variance);
   cv::Mat log_odds(picture.size(), CV_32F);
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
       const float object =
           log_add(coloured.at<float>(y, x), plain.at<float>(y, x)) + std::log(0.5F);
       const float odds = object - background.at<float>(y, x);
-      log_odds.at<float>(y, x) = static_cast<float>(options.evidence * odds + options.bias);
+      log_odds.at<float>(y, x) =
+          static_cast<float>(options.evidence * odds + options.bias * change.at<float>(y, x));
     }
   }
   return log_odds;
@@ -247,6 +305,16 @@ Level make_fine(const cv::Mat& picture, const cv::Mat& background, cv::Size size
   return level;
 }
 
+// What reaches the picture's border pays for it as for any border without an edge: the object is
+// meant to be inside, a shadow need not be.
+void expect_inside(cv::Mat& log_odds, double smoothness) {
+  const int right = log_odds.cols - 1, bottom = log_odds.rows - 1;
+  for (cv::Mat side :
+       {log_odds.row(0), log_odds.row(bottom), log_odds.col(0), log_odds.col(right)}) {
+    side -= smoothness;
+  }
+}
+
 // Shading and colours are learned from `mask`, the best labelling so far; the new one differs from
 // it only where `open` is set.
 cv::Mat improve(const Level& level, const cv::Mat& mask, const cv::Mat& open,
@@ -258,9 +326,10 @@ cv::Mat improve(const Level& level, const cv::Mat& mask, const cv::Mat& open,
   const cv::Mat shading = estimate_shading(picture, fit.expected, variance, weight, options.shadow);
   const cv::Mat background =
       background_log_likelihood(picture, fit.expected, variance, shading, options.shadow);
-  const cv::Mat log_odds =
-      object_log_odds(picture, variance, background, ObjectColours(picture, sure), options);
+  cv::Mat log_odds = object_log_odds(picture, fit.expected, variance, background,
+                                     ObjectColours(picture, sure), options);
   const Novelty novelty = novelty_of(picture, fit.expected, shading, variance);
+  if (open.empty()) expect_inside(log_odds, options.smoothness);
   const cv::Mat decided = open.empty() ? open_pixels(log_odds) : open;
   const cv::Mat given = open.empty() ? cv::Mat::zeros(mask.size(), CV_8U) : mask;
   cv::Mat result = cut_grid(log_odds, grid_edges(novelty, options.smoothness), decided, given);
@@ -331,10 +400,11 @@ std::string size_text(const cv::Mat& picture) {
 
 cv::Mat to_bgr8(const cv::Mat& picture) {
   check_type(picture);
+  constexpr double kFloor = -0.498;  // not rounding: both v * 256 and v * 257 become v
   cv::Mat result = picture;
   if (picture.channels() == 1) cv::cvtColor(picture, result, cv::COLOR_GRAY2BGR);
   if (picture.channels() == 4) cv::cvtColor(picture, result, cv::COLOR_BGRA2BGR);
-  if (result.depth() == CV_16U) result.convertTo(result, CV_8U, 1.0 / 256);
+  if (result.depth() == CV_16U) result.convertTo(result, CV_8U, 1.0 / 256, kFloor);
   return result.data == picture.data ? picture.clone() : result;
 }
 
@@ -350,6 +420,7 @@ cv::Mat segment_by_background(const cv::Mat& picture, const cv::Mat& background,
   const Level coarse =
       make_coarse(picture, background, size_for(picture.size(), options.coarse_pixels));
   refuse_moved_camera(coarse.fit);
+  refuse_other_light(coarse.fit);
   cv::Mat mask = cv::Mat::zeros(coarse.picture.size(), CV_8U);
   for (int round = 0; round < options.rounds; ++round) {
     mask = improve(coarse, mask, cv::Mat(), options);

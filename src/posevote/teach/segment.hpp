@@ -20,12 +20,12 @@ struct SegmentOptions {
   ShadowOptions shadow;
   int coarse_pixels = 80000;    ///< size of the copy that the object is found in, at most
   int working_pixels = 400000;  ///< size of the copy that its border is found in, at most
-  int rounds = 3;               ///< times that shadow and colours are learned in the small copy
+  int rounds = 2;               ///< times that shadow and colours are learned in the small copy
   /// Weight of a pixel's own evidence: neighbours are not independent witnesses (smoothing, JPEG
   /// and light reach over several pixels).
   double evidence = 0.25;
-  double bias = 0.06;  ///< nats per pixel of the small copy for the object when it could be either
-  double smoothness = 8;         ///< nats per pixel of a border where no edge is seen
+  double bias = 0.3;  ///< nats per pixel of the small copy for the object when it could be either
+  double smoothness = 14;        ///< nats per pixel of a border where no edge is seen
   double max_coverage = 0.9;     ///< share of the picture; an object that covers more is refused
   double min_coverage = 0.0005;  ///< share of the picture; what covers less is nothing
   double part_share = 0.04;      ///< further parts count from this share of the largest

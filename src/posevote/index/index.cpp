@@ -15,6 +15,8 @@ using Part = ListIndex::Part;
 
 /// Rows per list that k-means looks at.
 constexpr std::size_t kSamplesPerList = 40;
+/// Lists for n descriptors: this times the root of n.
+constexpr double kListsPerRoot = 3;
 /// Lists are learnt again when this many times more or fewer would be chosen now. Their number
 /// grows with the root of the number of descriptors, and the time of a search is flat about its
 /// minimum.
@@ -67,7 +69,8 @@ std::array<std::size_t, kSigns> count_signs(const std::vector<NumberedUnit>& uni
 std::size_t suitable_lists(std::size_t count, const IndexOptions& options) {
   if (options.method == "exact") return 0;
   if (options.method == "auto" && count <= static_cast<std::size_t>(options.scan_limit)) return 0;
-  const auto lists = static_cast<std::size_t>(2.5 * std::sqrt(static_cast<double>(count)));
+  const auto lists =
+      static_cast<std::size_t>(kListsPerRoot * std::sqrt(static_cast<double>(count)));
   return std::min<std::size_t>(lists, 65536) / kBlockLanes * kBlockLanes;
 }
 

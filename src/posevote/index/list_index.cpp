@@ -10,8 +10,9 @@
 namespace posevote {
 namespace {
 
-/// Products stand for distances of descriptors of length 1; half floats are that long within this.
+/// What products miss when lengths are not quite 1, as those of half floats.
 constexpr float kLengthError = 1e-3F;
+constexpr std::size_t kAhead = 2;  ///< queries whose rows are on their way while one is ranked
 constexpr std::size_t kChunkBlocks = 64;  // 64 KB of codes for 64 dimensions: half of an L2 cache
 
 bool before(const Neighbor& a, const Neighbor& b) {
@@ -90,7 +91,11 @@ class Search {
 
   void run(std::vector<std::vector<Neighbor>>& result) {
     for (std::size_t sign = 0; sign < kSigns; ++sign) look_through(sign);
-    for (std::size_t q = 0; q < count_; ++q) result[begin_ + q] = rank(q);
+    for (std::size_t q = 0; q < std::min(kAhead, count_); ++q) prepare_rank(q);
+    for (std::size_t q = 0; q < count_; ++q) {
+      if (q + kAhead < count_) prepare_rank(q + kAhead);
+      result[begin_ + q] = rank(q);
+    }
   }
 
  private:
@@ -193,10 +198,10 @@ class Search {
   /// The k best of the candidates of a query by exact distance. Of those that are not among the k
   /// best by their codes, only those are measured that the error of the codes leaves a chance.
   [[nodiscard]] std::vector<Neighbor> rank(std::size_t q) {
-    shortlists_[q].tighten();
     const std::vector<Candidate>& candidates = shortlists_[q].candidates();
     const std::size_t wanted = std::min(k_, candidates.size());
     std::vector<Neighbor> result;
+    result.reserve(candidates.size());
     float farthest = 0;
     for (std::size_t i = 0; i < wanted; ++i) {
       result.push_back(measure(q, candidates[i]));
@@ -211,13 +216,33 @@ class Search {
     return result;
   }
 
+  /// Asks for the rows that `rank` will read, which are scattered over the memory.
+  void prepare_rank(std::size_t q) {
+    shortlists_[q].tighten();
+    const std::vector<Candidate>& candidates = shortlists_[q].candidates();
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const cv::Mat& rows = unit_of(candidates[i]).descriptors;
+      const uchar* row = rows.ptr(static_cast<int>(entry_of(candidates[i]).feature));
+      const std::size_t bytes = rows.elemSize() * static_cast<std::size_t>(rows.cols);
+      for (std::size_t offset = 0; offset < bytes; offset += 64) __builtin_prefetch(row + offset);
+    }
+  }
+
+  [[nodiscard]] const Segment::Entry& entry_of(const Candidate& candidate) const {
+    const Segment& segment = *index_.parts()[candidate.source / kSigns].segment;
+    return segment.lists(candidate.source % kSigns).entries[candidate.entry];
+  }
+
+  [[nodiscard]] const Unit& unit_of(const Candidate& candidate) const {
+    const Segment& segment = *index_.parts()[candidate.source / kSigns].segment;
+    return segment.units()[entry_of(candidate).unit];
+  }
+
   [[nodiscard]] Neighbor measure(std::size_t q, const Candidate& candidate) {
-    const ListIndex::Part& part = index_.parts()[candidate.source / kSigns];
-    const Segment::Entry& entry =
-        part.segment->lists(candidate.source % kSigns).entries[candidate.entry];
-    const ListIndex::Number& number = part.numbers[entry.unit];
-    const float* taught = read_row(part.segment->units()[entry.unit].descriptors,
-                                   static_cast<int>(entry.feature), buffer_);
+    const Segment::Entry& entry = entry_of(candidate);
+    const ListIndex::Number& number = index_.parts()[candidate.source / kSigns].numbers[entry.unit];
+    const float* taught =
+        read_row(unit_of(candidate).descriptors, static_cast<int>(entry.feature), buffer_);
     return {number.view, number.first + static_cast<int>(entry.feature),
             distance(row(q), taught, coder_.dimension())};
   }

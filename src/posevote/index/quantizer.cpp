@@ -41,7 +41,7 @@ void move_centers(int dimension, const std::vector<std::uint16_t>& lists,
   }
 }
 
-/// Positions of the `wanted` largest of `values`, the largest first; ties: the lower position.
+/// Positions (below 65536) of the `wanted` largest values, the largest first; ties: the lower.
 /// A limit that surely lets that many through is found from the maxima of blocks.
 class Largest {
  public:
@@ -58,14 +58,16 @@ class Largest {
       limit = *nth;
     }
     positions_.resize(find_at_least(values, padded, limit, positions_.data()));
-    const auto better = [&](std::uint32_t a, std::uint32_t b) {
-      return values[a] != values[b] ? values[a] > values[b] : a < b;
-    };
+    // Value and position in one number, so that larger is better.
+    for (std::uint32_t& position : positions_)
+      position = static_cast<std::uint32_t>(values[position] + 32768) << 16 | (65535 - position);
     const auto last = positions_.begin() + static_cast<std::ptrdiff_t>(wanted);
     if (positions_.size() > wanted)
-      std::nth_element(positions_.begin(), last - 1, positions_.end(), better);
-    std::iter_swap(positions_.begin(), std::min_element(positions_.begin(), last, better));
-    std::copy(positions_.begin(), last, result);
+      std::nth_element(positions_.begin(), last - 1, positions_.end(), std::greater<>());
+    std::iter_swap(positions_.begin(), std::max_element(positions_.begin(), last));
+    std::transform(positions_.begin(), last, result, [](std::uint32_t key) {
+      return static_cast<std::uint16_t>(65535 - (key & 65535));
+    });
   }
 
  private:

@@ -69,56 +69,82 @@ void IntegralRow(const std::uint8_t* HWY_RESTRICT pixels, const std::uint32_t* H
   }
 }
 
-// One vector of determinants; `at` points at the sum above and left of the first filter's centre.
+// The filters are separable into differences of sums along y, which neighbours in x share, and then
+// along x: 20 loads per vector instead of 32. A tile's three rows of differences stay in the L1
+// cache.
+constexpr int kTile = 1024;
+constexpr int kTileReach = 512;  // of the largest filter that is tiled, both sides together
+
+struct Differences {
+  std::int32_t xx[kTile + kTileReach], yy[kTile + kTileReach], xy[kTile + kTileReach];
+};
+
+// `at`: the sum at the row above the centre and the tile's first column.
 template <class D>
-HWY_INLINE hn::Vec<hn::RebindToFloat<D>> Determinants(D d, const std::int32_t* HWY_RESTRICT at,
-                                                      std::ptrdiff_t stride, int lobe,
-                                                      hn::Vec<hn::RebindToFloat<D>> norm) {
+HWY_INLINE void DifferencesAlongY(D d, const std::int32_t* HWY_RESTRICT at, std::ptrdiff_t stride,
+                                  int lobe, int x, Differences& out) {
+  const int middle = lobe / 2, half = lobe + middle, wide = lobe - 1;
+  const auto sums = [&](int y) HWY_ATTR { return hn::LoadU(d, at + y * stride + x); };
+  hn::StoreU(hn::Sub(sums(wide + 1), sums(-wide)), d, out.xx + x);
+  const auto inner = hn::Sub(sums(middle + 1), sums(-middle));
+  const auto outer = hn::Sub(sums(half + 1), sums(-half));
+  hn::StoreU(hn::Sub(outer, hn::Add(inner, hn::Add(inner, inner))), d, out.yy + x);
+  const auto below = hn::Sub(sums(lobe + 1), sums(1)), above = hn::Sub(sums(0), sums(-lobe));
+  hn::StoreU(hn::Sub(below, above), d, out.xy + x);
+}
+
+// `x`: of the filter's centre in the tile's rows.
+template <class D>
+HWY_INLINE void DeterminantsAlongX(D d, const Differences& in, int x, int lobe, float norm,
+                                   float* HWY_RESTRICT out) {
   const hn::RebindToFloat<D> df;
   const int middle = lobe / 2, half = lobe + middle, wide = lobe - 1;
-  const auto corner = [&](int y, int x) HWY_ATTR { return hn::LoadU(d, at + y * stride + x); };
-  const auto box = [&](int x0, int y0, int x1, int y1) HWY_ATTR {
-    return hn::Add(hn::Sub(corner(y1, x1), corner(y1, x0)),
-                   hn::Sub(corner(y0, x0), corner(y0, x1)));
+  const auto range = [&](const std::int32_t* row, int from, int to) HWY_ATTR {
+    return hn::Sub(hn::LoadU(d, row + x + to), hn::LoadU(d, row + x + from));
   };
-  const auto three = [&](hn::Vec<D> v) HWY_ATTR { return hn::Add(v, hn::Add(v, v)); };
-  const auto xx = hn::Sub(box(-half, -wide, half + 1, wide + 1),
-                          three(box(-middle, -wide, middle + 1, wide + 1)));
-  const auto yy = hn::Sub(box(-wide, -half, wide + 1, half + 1),
-                          three(box(-wide, -middle, wide + 1, middle + 1)));
-  const auto same = hn::Add(box(-lobe, -lobe, 0, 0), box(1, 1, lobe + 1, lobe + 1));
-  const auto other = hn::Add(box(1, -lobe, lobe + 1, 0), box(-lobe, 1, 0, lobe + 1));
-  const auto fxx = hn::Mul(hn::ConvertTo(df, xx), norm);
-  const auto fyy = hn::Mul(hn::ConvertTo(df, yy), norm);
-  const auto fxy = hn::Mul(hn::ConvertTo(df, hn::Sub(same, other)), norm);
-  return hn::Sub(hn::Mul(fxx, fyy), hn::Mul(hn::Mul(fxy, fxy), hn::Set(df, 0.81F)));
+  const auto inner = range(in.xx, -middle, middle + 1);
+  const auto xx = hn::Sub(range(in.xx, -half, half + 1), hn::Add(inner, hn::Add(inner, inner)));
+  const auto yy = range(in.yy, -wide, wide + 1);
+  const auto xy = hn::Sub(range(in.xy, 1, lobe + 1), range(in.xy, -lobe, 0));
+  const auto fxx = hn::Mul(hn::ConvertTo(df, xx), hn::Set(df, norm));
+  const auto fyy = hn::Mul(hn::ConvertTo(df, yy), hn::Set(df, norm));
+  const auto fxy = hn::Mul(hn::ConvertTo(df, xy), hn::Set(df, norm));
+  hn::StoreU(hn::Sub(hn::Mul(fxx, fyy), hn::Mul(hn::Mul(fxy, fxy), hn::Set(df, 0.81F))), df, out);
+}
+
+void HessianTile(const std::int32_t* HWY_RESTRICT at, std::ptrdiff_t stride, int count, int lobe,
+                 float norm, float* HWY_RESTRICT out) {
+  const hn::ScalableTag<std::int32_t> d;
+  const hn::CappedTag<std::int32_t, 1> one;
+  const int lanes = static_cast<int>(hn::Lanes(d)), half = lobe + lobe / 2;
+  const int total = count + 2 * half + 1;
+  HWY_ALIGN Differences rows;
+  int x = 0;
+  for (; x + lanes <= total; x += lanes) DifferencesAlongY(d, at - half, stride, lobe, x, rows);
+  for (; x < total; ++x) DifferencesAlongY(one, at - half, stride, lobe, x, rows);
+  for (x = 0; x + lanes <= count; x += lanes)
+    DeterminantsAlongX(d, rows, x + half, lobe, norm, out + x);
+  for (; x < count; ++x) DeterminantsAlongX(one, rows, x + half, lobe, norm, out + x);
 }
 
 void HessianRow(const SumsView& view, int x, int y, int count, int lobe, float norm,
                 float* HWY_RESTRICT out) {
-  const hn::ScalableTag<std::int32_t> d;
-  const hn::RebindToFloat<decltype(d)> df;
-  const int lanes = static_cast<int>(hn::Lanes(d));
   const auto* at = reinterpret_cast<const std::int32_t*>(view.sums) + y * view.stride + x;
-  int i = 0;
-  for (; i + lanes <= count; i += lanes)
-    hn::StoreU(Determinants(d, at + i, view.stride, lobe, hn::Set(df, norm)), df, out + i);
-  const hn::CappedTag<std::int32_t, 1> one;
-  const hn::RebindToFloat<decltype(one)> one_f;
-  for (; i < count; ++i)
-    hn::StoreU(Determinants(one, at + i, view.stride, lobe, hn::Set(one_f, norm)), one_f, out + i);
+  const int tile = kTile + kTileReach - 3 * lobe - 1;
+  if (tile < 1) return plain::hessian_row(view, x, y, count, lobe, norm, out);
+  for (int i = 0; i < count; i += tile)
+    HessianTile(at + i, view.stride, std::min(tile, count - i), lobe, norm, out + i);
 }
 
 template <class D>
 HWY_INLINE hn::Mask<D> MaximumMask(D d, const float* const* rows, int x, hn::Vec<D> threshold) {
   const auto centre = hn::LoadU(d, rows[4] + x);
-  auto mask = hn::Ge(centre, threshold);
-  if (HWY_LIKELY(hn::AllFalse(d, mask))) return mask;
   const auto above = [&](int row, int shift)
                          HWY_ATTR { return hn::Gt(centre, hn::LoadU(d, rows[row] + x + shift)); };
-  mask = hn::And(mask, hn::And(above(4, -1), above(4, 1)));
+  // Five tests before the first branch: threshold alone is a coin toss on textured ground.
+  auto mask = hn::And(hn::Ge(centre, threshold), hn::And(above(4, -1), above(4, 1)));
   mask = hn::And(mask, hn::And(above(3, 0), above(5, 0)));
-  if (hn::AllFalse(d, mask)) return mask;
+  if (HWY_LIKELY(hn::AllFalse(d, mask))) return mask;
   mask = hn::And(mask, hn::And(above(1, 0), above(7, 0)));
   for (const int row : {0, 1, 2, 3, 5, 6, 7, 8})
     mask = hn::And(mask, hn::And(above(row, -1), above(row, 1)));
@@ -253,6 +279,71 @@ void Descriptor(const SumsView& view, const PatchFrame& frame, float* HWY_RESTRI
   }
 }
 
+// The bin of the angle of (x, y), see plain::sector_sums.
+template <class D>
+HWY_INLINE hn::Vec<hn::RebindToSigned<D>> AngleBin(D d, hn::Vec<D> x, hn::Vec<D> y) {
+  const hn::RebindToSigned<D> di;
+  const auto ax = hn::Abs(x), ay = hn::Abs(y), zero = hn::Zero(d);
+  const auto q = hn::Div(hn::Min(ax, ay), hn::Add(hn::Max(ax, ay), hn::Set(d, 1e-30F)));
+  const auto q2 = hn::Mul(q, q);
+  auto angle = hn::Sub(hn::Set(d, kAtan[2]), hn::Mul(q2, hn::Set(d, kAtan[3])));
+  angle = hn::Add(hn::Set(d, kAtan[1]), hn::Mul(q2, angle));
+  angle = hn::Mul(q, hn::Add(hn::Set(d, kAtan[0]), hn::Mul(q2, angle)));
+  angle = hn::IfThenElse(hn::Gt(ay, ax), hn::Sub(hn::Set(d, kBinsPerTurn / 4), angle), angle);
+  angle = hn::IfThenElse(hn::Lt(x, zero), hn::Sub(hn::Set(d, kBinsPerTurn / 2), angle), angle);
+  angle = hn::IfThenElse(hn::Lt(y, zero), hn::Sub(hn::Set(d, kBinsPerTurn), angle), angle);
+  return hn::Min(hn::ConvertTo(di, angle), hn::Set(di, kAngleBins - 1));
+}
+
+void SectorSums(const WaveletGrid& grid, const WaveletRange& range, float* HWY_RESTRICT out_x,
+                float* HWY_RESTRICT out_y) {
+  const hn::CappedTag<float, 8> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const WaveletWeights& weights = wavelet_weights();
+  // Room for what runs over the end when sums of neighbours are taken.
+  alignas(64) float x[kAngleBins + 24] = {}, y[kAngleBins + 24] = {};
+  for (int j = range.first_row; j <= range.last_row; ++j) {
+    alignas(64) float dx[16], dy[16];
+    alignas(64) std::int32_t bin[16];
+    for (int i = 0; i < 16; i += lanes) {
+      const auto at = [&](int row, int column)
+                          HWY_ATTR { return hn::LoadU(di, grid.sums[j + row] + i + column); };
+      const auto left = hn::Sub(at(4, 0), at(0, 0)), right = hn::Sub(at(4, 4), at(0, 4));
+      const auto centre = hn::Sub(at(4, 2), at(0, 2));
+      const auto top = hn::Sub(at(0, 4), at(0, 0)), bottom = hn::Sub(at(4, 4), at(4, 0));
+      const auto middle = hn::Sub(at(2, 4), at(2, 0));
+      const auto weight = hn::LoadU(d, weights.at[j] + i);
+      const auto twice = [&](hn::Vec<decltype(di)> v) HWY_ATTR { return hn::Add(v, v); };
+      const auto vx =
+          hn::Mul(hn::ConvertTo(d, hn::Sub(hn::Add(left, right), twice(centre))), weight);
+      const auto vy =
+          hn::Mul(hn::ConvertTo(d, hn::Sub(hn::Add(top, bottom), twice(middle))), weight);
+      hn::Store(vx, d, dx + i);
+      hn::Store(vy, d, dy + i);
+      hn::Store(AngleBin(d, vx, vy), di, bin + i);
+    }
+    const int reach = weights.reach[j];
+    const int last = std::min(range.last_column, kWaveletSide / 2 + reach);
+    for (int i = std::max(range.first_column, kWaveletSide / 2 - reach); i <= last; ++i) {
+      x[bin[i]] += dx[i];
+      y[bin[i]] += dy[i];
+    }
+  }
+  for (float* sums : {x, y}) {
+    std::copy_n(sums, kSectorBins, sums + kAngleBins);
+    alignas(64) float two[kAngleBins + 24], four[kAngleBins + 24];
+    const auto join = [&](const float* a, const float* b, float* to, int count) HWY_ATTR {
+      for (int i = 0; i < count; i += lanes)
+        hn::StoreU(hn::Add(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), d, to + i);
+    };
+    join(sums, sums + 1, two, kAngleBins + 16);
+    join(two, two + 2, four, kAngleBins + 8);
+    join(four, four + 4, two, kAngleBins);                       // eight
+    join(two, four + 8, sums == x ? out_x : out_y, kAngleBins);  // twelve
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace posevote::simd
 HWY_AFTER_NAMESPACE();
@@ -265,6 +356,7 @@ HWY_EXPORT(IntegralRow);
 HWY_EXPORT(HessianRow);
 HWY_EXPORT(FindMaxima);
 HWY_EXPORT(Descriptor);
+HWY_EXPORT(SectorSums);
 
 void smooth_row(const std::uint8_t* const rows[5], int count, std::uint16_t* scratch,
                 std::uint8_t* out) {
@@ -286,6 +378,10 @@ int find_maxima(const float* const rows[kMaximaRows], int count, float threshold
 
 void descriptor(const SumsView& view, const PatchFrame& frame, float* out) {
   HWY_DYNAMIC_DISPATCH(Descriptor)(view, frame, out);
+}
+
+void sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* x, float* y) {
+  HWY_DYNAMIC_DISPATCH(SectorSums)(grid, range, x, y);
 }
 
 }  // namespace posevote::simd

@@ -47,7 +47,26 @@ int find_maxima(const float* const rows[kMaximaRows], int count, float threshold
 /// The 64 numbers described in surf/descriptor.hpp, not yet normalised.
 void descriptor(const SumsView& view, const PatchFrame& frame, float* out);
 
+/// Haar wavelets at 11 x 11 points, the middle one in the middle: point (i, j) has its corners at
+/// the nodes [j], [j + 2], [j + 4] x [i], [i + 2], [i + 4] of the grid of sums. Columns from 15 on
+/// are padding.
+inline constexpr int kWaveletSide = 11, kWaveletNodes = 15;
+struct WaveletGrid {
+  std::int32_t sums[kWaveletNodes][24];
+};
+/// The points that count, closed ranges within 0 ... 10.
+struct WaveletRange {
+  int first_row, last_row, first_column, last_column;
+};
+inline constexpr int kAngleBins = 72, kSectorBins = 12;  ///< 5 and 60 degrees
+
+/// x[b], y[b]: the sum of the weighted wavelet responses (dx, dy) of the points within a circle
+/// whose angle lies in the bins b ... b + 11, modulo 72; both have 72 numbers. The angle is a
+/// polynomial of at most 0.002 bins error.
+void sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* x, float* y);
+
 namespace plain {
+void sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* x, float* y);
 void smooth_row(const std::uint8_t* const rows[5], int count, std::uint16_t* scratch,
                 std::uint8_t* out);
 void integral_row(const std::uint8_t* pixels, const std::uint32_t* above, int count,
@@ -64,5 +83,19 @@ struct DescriptorWeights {
   float squares[4];
 };
 [[nodiscard]] const DescriptorWeights& descriptor_weights();
+
+/// Gaussian of sigma 2.5 points, 0 outside the circle of radius 6; rows have 16 columns. Row j has
+/// its points within `reach[j]` columns of the middle.
+struct WaveletWeights {
+  float at[kWaveletSide][16];
+  int reach[kWaveletSide];
+};
+[[nodiscard]] const WaveletWeights& wavelet_weights();
+
+/// atan(q) for 0 <= q <= 1 in bins: q (a0 + q2 (a1 + q2 (a2 - q2 a3))), q2 = q q.
+inline constexpr float kBinsPerTurn = kAngleBins;
+inline constexpr float kBinsPerRadian = kBinsPerTurn / 6.2831853F;
+inline constexpr float kAtan[4] = {0.99921406F * kBinsPerRadian, -0.32117540F * kBinsPerRadian,
+                                   0.14626446F * kBinsPerRadian, 0.03898651F * kBinsPerRadian};
 
 }  // namespace posevote::simd

@@ -109,6 +109,41 @@ TEST_P(Kernels, DescriptorIsThePlainOneInsideAndAcrossTheBorder) {
       }
 }
 
+TEST_P(Kernels, SectorSumsAreThePlainOnes) {
+  cv::RNG random(5);
+  for (int round = 0; round < 50; ++round) {
+    WaveletGrid grid{};
+    for (auto& row : grid.sums)
+      for (int i = 0; i < kWaveletNodes; ++i) row[i] = random.uniform(-100000, 100000);
+    const WaveletRange range = round % 2 ? WaveletRange{0, 10, 0, 10}
+                                         : WaveletRange{random.uniform(0, 6), random.uniform(5, 11),
+                                                        random.uniform(0, 12), 10};
+    float expected[2][kAngleBins], found[2][kAngleBins];
+    plain::sector_sums(grid, range, expected[0], expected[1]);
+    sector_sums(grid, range, found[0], found[1]);
+    for (int i = 0; i < kAngleBins; ++i)
+      for (int k = 0; k < 2; ++k) ASSERT_NEAR(found[k][i], expected[k][i], 2) << i;  // of 1e5
+  }
+}
+
+TEST_P(Kernels, SectorSumsOfARampPointUpTheRamp) {
+  for (const float degrees : {2.0F, 47.0F, 93.0F, 178.0F, 182.0F, 268.0F, 272.0F, 358.0F}) {
+    const double c = std::cos(degrees * CV_PI / 180), s = std::sin(degrees * CV_PI / 180);
+    WaveletGrid grid{};  // sums of the ramp c x + s y
+    for (int y = 0; y < kWaveletNodes; ++y)
+      for (int x = 0; x < kWaveletNodes; ++x)
+        grid.sums[y][x] =
+            static_cast<std::int32_t>(std::lround(1e4 * (c * x * x * y + s * y * y * x)));
+    float x[kAngleBins], y[kAngleBins];
+    sector_sums(grid, {0, 10, 0, 10}, x, y);
+    const int bin = static_cast<int>(degrees / 5);
+    EXPECT_GT(x[bin] * c + y[bin] * s, 0);
+    EXPECT_NEAR(std::atan2(x[bin] * s - y[bin] * c, x[bin] * c + y[bin] * s), 0, 1e-3);
+    EXPECT_EQ(x[(bin + 1) % kAngleBins], 0);
+    EXPECT_EQ(y[(bin + 1) % kAngleBins], 0);
+  }
+}
+
 std::string name_of(const testing::TestParamInfo<std::int64_t>& test) {
   std::string name = hwy::TargetName(test.param);
   std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });

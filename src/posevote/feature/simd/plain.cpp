@@ -18,8 +18,34 @@ const DescriptorWeights& descriptor_weights() {
   return weights;
 }
 
+const WaveletWeights& wavelet_weights() {
+  static const WaveletWeights weights = [] {
+    WaveletWeights made{};
+    constexpr int kMiddle = kWaveletSide / 2;
+    for (int j = -kMiddle; j <= kMiddle; ++j)
+      for (int i = -kMiddle; i <= kMiddle; ++i) {
+        if (i * i + j * j >= 36) continue;
+        made.at[j + kMiddle][i + kMiddle] =
+            static_cast<float>(std::exp(-(i * i + j * j) / (2 * 2.5 * 2.5)));
+        made.reach[j + kMiddle] = std::max(made.reach[j + kMiddle], i);
+      }
+    return made;
+  }();
+  return weights;
+}
+
 namespace plain {
 namespace {
+
+int angle_bin(float x, float y) {
+  const float ax = std::abs(x), ay = std::abs(y);
+  const float q = std::min(ax, ay) / (std::max(ax, ay) + 1e-30F), q2 = q * q;
+  float angle = q * (kAtan[0] + q2 * (kAtan[1] + q2 * (kAtan[2] - q2 * kAtan[3])));
+  if (ay > ax) angle = kBinsPerTurn / 4 - angle;
+  if (x < 0) angle = kBinsPerTurn / 2 - angle;
+  if (y < 0) angle = kBinsPerTurn - angle;
+  return std::min(static_cast<int>(angle), kAngleBins - 1);
+}
 
 // Sum of the closed range around (x, y); differences of wrapped sums are exact.
 std::int32_t box(const SumsView& view, int x0, int y0, int x1, int y1) {
@@ -111,6 +137,30 @@ void descriptor(const SumsView& view, const PatchFrame& frame, float* out) {
       for (int k = 0; k < 4; ++k)
         out[(row * 4 + column) * 4 + k] = sums[k] * weights.squares[row] * weights.squares[column];
     }
+}
+
+void sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* x, float* y) {
+  float bin_x[kAngleBins] = {}, bin_y[kAngleBins] = {};
+  for (int j = range.first_row; j <= range.last_row; ++j)
+    for (int i = range.first_column; i <= range.last_column; ++i) {
+      const float weight = wavelet_weights().at[j][i];
+      if (weight == 0) continue;
+      const auto box = [&](int y0, int x0, int y1, int x1) {
+        return grid.sums[j + y1][i + x1] - grid.sums[j + y1][i + x0] - grid.sums[j + y0][i + x1] +
+               grid.sums[j + y0][i + x0];
+      };
+      const float dx = static_cast<float>(box(0, 2, 4, 4) - box(0, 0, 4, 2)) * weight;
+      const float dy = static_cast<float>(box(2, 0, 4, 4) - box(0, 0, 2, 4)) * weight;
+      bin_x[angle_bin(dx, dy)] += dx;
+      bin_y[angle_bin(dx, dy)] += dy;
+    }
+  for (int bin = 0; bin < kAngleBins; ++bin) {
+    x[bin] = y[bin] = 0;
+    for (int k = bin; k < bin + kSectorBins; ++k) {
+      x[bin] += bin_x[k % kAngleBins];
+      y[bin] += bin_y[k % kAngleBins];
+    }
+  }
 }
 
 }  // namespace plain

@@ -46,6 +46,9 @@ cv::Mat cut_grid(const cv::Mat& log_odds, const GridEdges& edges, const cv::Mat&
       link(p, {x - 1, y + 1}, edges.down_left, p);
     }
   }
+  // The solver wants an edge, be it one between two pixels that are not there.
+  const int first = graph.addVtx(), second = graph.addVtx();
+  graph.addEdges(first, second, 0, 0);
   graph.maxFlow();
   for (int y = 0; y < open.rows; ++y) {
     for (int x = 0; x < open.cols; ++x) {

@@ -77,10 +77,11 @@ std::vector<Keypoint> Workspace::find(const cv::Mat& mask, const FeatureOptions&
 }
 
 cv::Mat Workspace::describe_all(std::vector<Keypoint>& keypoints, const FeatureOptions& options,
-                                bool keep_angles) {
+                                bool with_descriptors) {
   if (keypoints.empty()) return {};
   const int count = static_cast<int>(keypoints.size());
-  cv::Mat descriptors(count, kDescriptorSize, CV_32F);
+  cv::Mat descriptors;
+  if (with_descriptors) descriptors.create(count, kDescriptorSize, CV_32F);
   // In scan order the sums of one key point are in the cache for the next.
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
@@ -89,11 +90,11 @@ cv::Mat Workspace::describe_all(std::vector<Keypoint>& keypoints, const FeatureO
   });
   Stopwatch watch;
   run_team(team_size(options.surf), [&](const Member& member) {
-    if (!options.surf.upright && !keep_angles)
+    if (!options.surf.upright)
       for (int k = member.begin(count); k < member.end(count); ++k)
         keypoints[order[k]].angle = orientation(integral_, keypoints[order[k]]);
     if (member.index() == 0) times_.orientation = watch.lap();
-    for (int k = member.begin(count); k < member.end(count); ++k)
+    for (int k = member.begin(count); k < member.end(count) && with_descriptors; ++k)
       surf::describe(integral_, keypoints[order[k]], descriptors.ptr<float>(order[k]));
   });
   times_.descriptor = watch.lap();
@@ -101,28 +102,28 @@ cv::Mat Workspace::describe_all(std::vector<Keypoint>& keypoints, const FeatureO
 }
 
 Features Workspace::extract(const cv::Mat& image, const cv::Mat& mask,
-                            const FeatureOptions& options) {
+                            const FeatureOptions& options, bool with_descriptors) {
   times_ = {};
   check_mask(image, mask);
   load(image, options);
   Features features;
   if (grey_.empty()) return features;
   features.keypoints = find(mask, options);
-  features.descriptors = describe_all(features.keypoints, options, false);
+  features.descriptors = describe_all(features.keypoints, options, with_descriptors);
   if (options.surf.double_size) scale_keypoints(features.keypoints, 0.5F);
   grey_.release();
   return features;
 }
 
 cv::Mat Workspace::describe(const cv::Mat& image, std::vector<Keypoint>& keypoints,
-                            const FeatureOptions& options, bool keep_angles) {
+                            const FeatureOptions& options) {
   load(image, options);
   if (grey_.empty() || keypoints.empty()) return {};
   const int team = team_size(options.surf);
   integral_.prepare(grey_, options.surf.smooth, team);
   run_team(team, [&](const Member& member) { integral_.compute(member); });
   if (options.surf.double_size) scale_keypoints(keypoints, 2);
-  cv::Mat descriptors = describe_all(keypoints, options, keep_angles);
+  cv::Mat descriptors = describe_all(keypoints, options, true);
   if (options.surf.double_size) scale_keypoints(keypoints, 0.5F);
   return descriptors;
 }

@@ -21,11 +21,11 @@ class Workspace {
  public:
   /// `image` and `mask` as in Extractor::extract. The result is the same for any number of threads.
   [[nodiscard]] Features extract(const cv::Mat& image, const cv::Mat& mask,
-                                 const FeatureOptions& options);
-  /// Sets the angles (unless `keep_angles` or upright) and returns one descriptor per key point.
-  /// `keypoints` may come from any detector; scale must be > 0.
+                                 const FeatureOptions& options, bool with_descriptors = true);
+  /// Sets the angles (unless upright) and returns one descriptor per key point. `keypoints` may
+  /// come from any detector; finite, scale > 0.
   [[nodiscard]] cv::Mat describe(const cv::Mat& image, std::vector<Keypoint>& keypoints,
-                                 const FeatureOptions& options, bool keep_angles);
+                                 const FeatureOptions& options);
   /// Of the last call of `extract`.
   [[nodiscard]] const StageTimes& times() const noexcept { return times_; }
 
@@ -33,7 +33,7 @@ class Workspace {
   void load(const cv::Mat& image, const FeatureOptions& options);
   [[nodiscard]] std::vector<Keypoint> find(const cv::Mat& mask, const FeatureOptions& options);
   [[nodiscard]] cv::Mat describe_all(std::vector<Keypoint>& keypoints,
-                                     const FeatureOptions& options, bool keep_angles);
+                                     const FeatureOptions& options, bool with_descriptors);
 
   cv::Mat grey_;
   Integral integral_;

@@ -56,14 +56,19 @@ TaskProgress show_progress() {
   };
 }
 
-// A folder without dataset.json stands for all data sets in it.
-std::vector<std::filesystem::path> expand_datasets(const std::vector<std::string>& given) {
+// A folder without dataset.json stands for all data sets in it but the negatives.
+std::vector<std::filesystem::path> expand_datasets(const std::vector<std::string>& given,
+                                                   const std::filesystem::path& negatives) {
+  const auto is_set = [&](const std::filesystem::path& path) {
+    return std::filesystem::exists(path / "dataset.json") &&
+           !(std::filesystem::exists(negatives) && std::filesystem::equivalent(path, negatives));
+  };
   std::vector<std::filesystem::path> paths;
   for (const std::filesystem::path path : given) {
     std::vector<std::filesystem::path> inside;
     if (std::filesystem::is_directory(path) && !std::filesystem::exists(path / "dataset.json"))
       for (const auto& entry : std::filesystem::directory_iterator(path))
-        if (std::filesystem::exists(entry.path() / "dataset.json")) inside.push_back(entry.path());
+        if (is_set(entry.path())) inside.push_back(entry.path());
     std::ranges::sort(inside);
     if (inside.empty()) inside.push_back(path);
     paths.insert(paths.end(), inside.begin(), inside.end());
@@ -160,7 +165,7 @@ void run(const EvaluateArguments& arguments, CommandContext& context) {
 
   std::vector<Evaluation> evaluations;
   std::vector<ReportSection> sections;
-  for (const auto& path : expand_datasets(arguments.datasets))
+  for (const auto& path : expand_datasets(arguments.datasets, arguments.negatives))
     work_on(select_tests(load_dataset(path), arguments.groups, arguments.limit), negatives,
             arguments, method, evaluations, sections);
 

@@ -10,7 +10,7 @@ namespace posevote {
 namespace {
 
 constexpr double width = 560, height = 330;
-constexpr double left = 62, right = 16, top = 34, bottom = 48;
+constexpr double left = 62, right = 16, top = 48, bottom = 48;
 constexpr int series_colours = 6;
 
 std::string px(double value) {
@@ -121,27 +121,27 @@ std::vector<double> round_ticks(double min, double max, int count) {
 std::string Chart::to_svg() const {
   const Plot plot(with_range(x, series, &cv::Point2d::x), with_range(y, series, &cv::Point2d::y));
   std::string svg = open_svg(title, height) + text(left, 18, "title", "start", title) + plot.axes();
-  double legend_x = width - right;
-  for (std::size_t i = series.size(); i-- > 0;) {
+  double legend_x = left;
+  for (std::size_t i = 0; i < series.size(); ++i) {
     const std::string colour = "s" + std::to_string(i % series_colours);
     svg += plot.curve(series[i], colour);
     if (series.size() < 2) continue;
     svg += "<g class=\"" + colour + "\">" +
-           text(legend_x, 18, "legend", "end", "\u25CF " + series[i].name) + "</g>\n";
-    legend_x -= 7.0 * static_cast<double>(series[i].name.size()) + 24;
+           text(legend_x, 36, "legend", "start", "\u25CF " + series[i].name) + "</g>\n";
+    legend_x += 7.0 * static_cast<double>(series[i].name.size()) + 30;
   }
   return svg + "</svg>\n";
 }
 
 std::string interval_svg(const std::string& title, const std::vector<IntervalRow>& rows) {
-  constexpr double row_height = 22, names = 170;
-  const double end = top + row_height * static_cast<double>(rows.size());
-  const auto map_x = [&](double share) { return names + share * (width - names - right - 50); };
+  constexpr double row_height = 22, names = 170, first = 34;
+  const double end = first + row_height * static_cast<double>(rows.size());
+  const auto map_x = [&](double share) { return names + share * (width - names - right - 64); };
   std::string svg = open_svg(title, end + 24) + text(8, 18, "title", "start", title);
   for (int tick = 0; tick <= 100; tick += 20)
-    svg += line(map_x(tick / 100.0), top - 4, map_x(tick / 100.0), end, "grid") +
+    svg += line(map_x(tick / 100.0), first - 4, map_x(tick / 100.0), end, "grid") +
            text(map_x(tick / 100.0), end + 16, "tick", "middle", std::to_string(tick) + " %");
-  double y = top + row_height / 2;
+  double y = first + row_height / 2;
   for (const IntervalRow& row : rows) {
     svg += text(names - 10, y + 4, "label", "end", row.name);
     if (std::isfinite(row.value)) {

@@ -21,7 +21,7 @@ const char* const page_style = R"(:root{color-scheme:light dark;--paper:#fcfcfa;
 @media print{:root{--paper:#fff;--card:#fff;--ink:#000;--soft:#555;--line:#ccc;--good:#11875d;
 --bad:#c8323c;--c0:#2763c4;--c1:#d4691e;--c2:#1d8a63;--c3:#9a44b8;--c4:#b3364f;--c5:#5c6b2f}
 figure,.chart,tr,.cards{break-inside:avoid}h2,h3{break-after:avoid}nav{display:none}
-body{max-width:none;padding:0}}
+body{max-width:none;padding:0}table{font-size:.62rem}th,td{padding:.1rem .25rem}}
 *{box-sizing:border-box}
 body{margin:0 auto;max-width:72rem;padding:1.5rem;background:var(--paper);color:var(--ink);
 font:15px/1.5 system-ui,sans-serif}
@@ -203,8 +203,10 @@ Chart false_alarm_chart(const Evaluation& evaluation) {
   // Beyond the surest false positive the curves are zero: the axis ends soon after it.
   double surest = 0;
   for (const ChartSeries& series : chart.series)
-    for (const cv::Point2d& point : series.points)
+    for (const cv::Point2d& point : series.points) {
       if (point.y > 0) surest = std::max(surest, point.x);
+      chart.y.max = std::max(chart.y.max, point.y);
+    }
   for (ChartSeries& series : chart.series)
     std::erase_if(series.points, [&](const cv::Point2d& p) { return p.x > 1.2 * surest + 1; });
   return chart;

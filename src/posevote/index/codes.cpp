@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <opencv2/core/hal/hal.hpp>
 
 #include "posevote/index/dots.hpp"
@@ -19,11 +20,9 @@ float rounding_length(int dimension) {
   return std::sqrt(static_cast<float>(dimension)) / 2;
 }
 
-/// round(v), in [-127, 127], plus 128; 128 for NaN.
+/// round(v), in [-127, 127], plus 128.
 int offset_code(float v) {
-  const float shifted = v + 128.5F;
-  if (!(shifted >= 1.0F)) return std::isnan(v) ? 128 : 1;
-  return static_cast<int>(std::min(shifted, 255.0F));
+  return static_cast<int>(std::clamp(v + 128.5F, 1.0F, 255.0F));  // positive: cutting it off rounds
 }
 
 /// Sum of term(d) in independent parts, so that the compiler may use vectors without reordering.
@@ -54,22 +53,28 @@ std::size_t Coder::block_bytes() const noexcept {
 
 float Coder::encode_taught(const float* row, const float* center, float scale, std::uint8_t* block,
                            std::size_t lane) const {
-  const auto value = [&](std::size_t d) {
-    const float v = center ? row[d] - center[d] : row[d];
-    return std::isfinite(v) ? v : 0.0F;
-  };
-  float squares = 0;
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d)
-    squares += value(d) * value(d);
+  const auto difference = [=](int d) { return center ? row[d] - center[d] : row[d]; };
+  const float squares = sum_over(dimension_, [&](int d) { return difference(d) * difference(d); });
+  if (!std::isfinite(squares)) {
+    for (std::size_t d = 0; d < quads_ * 4; ++d)
+      block[(d / 4 * kBlockLanes + lane) * 4 + d % 4] = 128;
+    return 1;
+  }
   const float length = std::sqrt(squares) * scale;
   const float factor = length > kTaughtLength ? scale * kTaughtLength / length : scale;
+  const float step = 1 / scale;
   float residual = 0;
-  for (std::size_t d = 0; d < quads_ * 4; ++d) {
-    const float v = d < static_cast<std::size_t>(dimension_) ? value(d) : 0.0F;
-    const int code = offset_code(v * factor);
-    const float error = v - static_cast<float>(code - 128) / scale;
-    residual += error * error;
-    block[(d / 4 * kBlockLanes + lane) * 4 + d % 4] = static_cast<std::uint8_t>(code);
+  for (std::size_t quad = 0; quad < quads_; ++quad) {
+    std::uint8_t codes[4] = {128, 128, 128, 128};
+    const int first = static_cast<int>(quad) * 4;
+    for (int i = 0; i < std::min(4, dimension_ - first); ++i) {
+      const float v = difference(first + i);
+      const int code = offset_code(v * factor);
+      const float error = v - static_cast<float>(code - 128) * step;
+      residual += error * error;
+      codes[i] = static_cast<std::uint8_t>(code);
+    }
+    std::memcpy(block + (quad * kBlockLanes + lane) * 4, codes, 4);
   }
   return std::sqrt(residual);
 }

@@ -21,7 +21,7 @@ inline constexpr float kUnitScale = 127;
 /// Codes of descriptors of one dimension. A taught value v becomes round(v * scale) + 128 in one
 /// byte, with one scale for many descriptors; a query value round(v * scale) with a scale of its
 /// own. Both are limited so that the conditions of `dots` hold and the products fit in 16 bits.
-/// Values that are not finite count as 0.
+/// A taught row with values that are not finite is coded as 0, such values of a query too.
 class Coder {
  public:
   explicit Coder(int dimension);

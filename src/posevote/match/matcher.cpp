@@ -1,6 +1,7 @@
 #include "posevote/match/matcher.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace posevote {
 
@@ -17,11 +18,7 @@ Neighborhood::Neighborhood(std::vector<std::vector<Neighbor>> neighbors, const M
     : neighbors_(std::move(neighbors)),
       models_(models),
       related_(std::move(related)),
-      features_of_object_(models.objects().size(), 0.0) {
-  for (const auto& entry : models.views())
-    features_of_object_[static_cast<std::size_t>(entry.object)] +=
-        static_cast<double>(entry.view->features.size());
-  for (const double count : features_of_object_) all_features_ += count;
+      all_features_(static_cast<double>(models.feature_count())) {
   for (const auto& pool : models.impostors()) all_features_ += static_cast<double>(pool.size());
 }
 
@@ -32,39 +29,40 @@ bool Neighborhood::related(int object, int other) const {
   return related_[static_cast<std::size_t>(object) * count + static_cast<std::size_t>(other)] != 0;
 }
 
-Reference Neighborhood::reference(int scene_feature, int object) const {
-  const auto& list = neighbors_[static_cast<std::size_t>(scene_feature)];
-  if (list.empty()) return {};
-  double population = all_features_ - features_of_object_[static_cast<std::size_t>(object)];
-  for (const Neighbor& neighbor : list) {
-    if (neighbor.view >= 0 &&
-        related(object, models_.views()[static_cast<std::size_t>(neighbor.view)].object))
-      continue;
-    return {neighbor.distance, 1.0 / std::max(1.0, population)};
-  }
-  const double rank = static_cast<double>(list.size());
-  return {list.back().distance, std::min(1.0, rank / std::max(1.0, all_features_))};
+bool Neighborhood::shows_same_spot(const Neighbor& neighbor, int view, int feature) const {
+  if (neighbor.view < 0) return false;
+  const auto& views = models_.views();
+  const auto& own = views[static_cast<std::size_t>(view)];
+  if (neighbor.view != view)
+    return related(own.object, views[static_cast<std::size_t>(neighbor.view)].object);
+  const auto& keypoints = own.view->features.keypoints;
+  const Keypoint& a = keypoints[static_cast<std::size_t>(feature)];
+  const Keypoint& b = keypoints[static_cast<std::size_t>(neighbor.feature)];
+  const float near = std::max(4.F, 2 * std::max(a.scale, b.scale));
+  return std::abs(a.x - b.x) < near && std::abs(a.y - b.y) < near;
 }
 
-std::vector<Match> match_features(const Neighborhood& neighborhood, const ModelSet& models,
-                                  const MatchOptions& options) {
+Reference Neighborhood::reference(int scene_feature, int view, int feature) const {
+  const auto& list = neighbors_[static_cast<std::size_t>(scene_feature)];
+  const double population = std::max(1.0, all_features_);
+  for (const Neighbor& neighbor : list)
+    if (!shows_same_spot(neighbor, view, feature)) return {neighbor.distance, 1 / population};
+  if (list.empty()) return {};
+  return {list.back().distance, static_cast<double>(list.size()) / population};
+}
+
+std::vector<Match> match_features(const Neighborhood& neighborhood, const MatchOptions& options) {
   std::vector<Match> matches;
   const auto& lists = neighborhood.neighbors();
-  for (int scene = 0; scene < static_cast<int>(lists.size()); ++scene) {
-    int known_object = -1;
-    Reference reference;
+  for (int scene = 0; scene < static_cast<int>(lists.size()); ++scene)
     for (const Neighbor& neighbor : lists[static_cast<std::size_t>(scene)]) {
       if (neighbor.view < 0) continue;
-      const int object = models.views()[static_cast<std::size_t>(neighbor.view)].object;
-      if (object != known_object) {
-        reference = neighborhood.reference(scene, object);
-        known_object = object;
-      }
-      if (neighbor.distance > options.max_ratio * reference.distance) continue;
-      const float ratio = reference.distance > 0 ? neighbor.distance / reference.distance : 1.F;
+      const float reference =
+          neighborhood.reference(scene, neighbor.view, neighbor.feature).distance;
+      if (neighbor.distance > options.max_ratio * reference) continue;
+      const float ratio = reference > 0 ? neighbor.distance / reference : 1.F;
       matches.push_back({scene, neighbor.view, neighbor.feature, neighbor.distance, ratio});
     }
-  }
   return matches;
 }
 

@@ -44,22 +44,22 @@ class Neighborhood {
                std::vector<char> related = {});
 
   [[nodiscard]] const std::vector<std::vector<Neighbor>>& neighbors() const { return neighbors_; }
-  [[nodiscard]] Reference reference(int scene_feature, int object) const;
+  [[nodiscard]] Reference reference(int scene_feature, int view, int feature) const;
   [[nodiscard]] bool related(int object, int other) const;
 
  private:
   std::vector<std::vector<Neighbor>> neighbors_;
   const ModelSet& models_;
   std::vector<char> related_;
-  std::vector<double> features_of_object_;  ///< number of descriptors per object
-  double all_features_ = 0;                 ///< with the pool
+  double all_features_ = 0;  ///< number of descriptors, with the pool
+
+  [[nodiscard]] bool shows_same_spot(const Neighbor& neighbor, int view, int feature) const;
 };
 
 /// All neighbours that pass the ratio, in order of scene feature, then distance. One scene feature
 /// may match several views of an object, several objects that are related, and several features of
 /// one view.
 [[nodiscard]] std::vector<Match> match_features(const Neighborhood& neighborhood,
-                                                const ModelSet& models,
                                                 const MatchOptions& options);
 
 }  // namespace posevote

@@ -1,19 +1,11 @@
 #include "posevote/recognize/compete.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace posevote {
 namespace {
-
-int object_of(const Hypothesis& hypothesis, const SceneContext& scene) {
-  return scene.models.views()[static_cast<std::size_t>(hypothesis.view)].object;
-}
-
-cv::Rect2f box_of(const Hypothesis& hypothesis, const SceneContext& scene) {
-  const View& view = *scene.models.views()[static_cast<std::size_t>(hypothesis.view)].view;
-  return cv::boundingRect(transform_polygon(hypothesis.scene_from_view, view.outline));
-}
 
 double overlap(const cv::Rect2f& a, const cv::Rect2f& b) {
   const double common = (a & b).area();
@@ -21,15 +13,131 @@ double overlap(const cv::Rect2f& a, const cv::Rect2f& b) {
   return all > 0 ? common / all : 0;
 }
 
-void take_features(const Hypothesis& hypothesis, std::vector<char>& taken) {
-  for (const Match& match : hypothesis.evidence.inliers)
-    taken[static_cast<std::size_t>(match.scene)] = 1;
+/// The part of the scene in which an object was surely seen: the convex hull of its matches.
+class Region {
+ public:
+  Region(const Hypothesis& hypothesis, const Features& scene) {
+    for (const Match& match : hypothesis.evidence.inliers) {
+      const Keypoint& k = scene.keypoints[static_cast<std::size_t>(match.scene)];
+      points_.emplace_back(k.x, k.y);
+    }
+    cv::convexHull(points_, hull_);
+    reach_ = hypothesis.tolerance_px;
+  }
+
+  [[nodiscard]] bool contains(cv::Point2f point) const {
+    return cv::pointPolygonTest(hull_, point, true) >= -reach_;
+  }
+  /// Share of this region's own matches that lie in the other.
+  [[nodiscard]] double share_in(const Region& other) const {
+    const auto inside = std::ranges::count_if(
+        points_, [&](const cv::Point2f& point) { return other.contains(point); });
+    return static_cast<double>(inside) / static_cast<double>(points_.size());
+  }
+  [[nodiscard]] cv::Point2f centre() const {
+    const cv::Rect2f box = cv::boundingRect(hull_);
+    return 0.5F * (box.tl() + box.br());
+  }
+  [[nodiscard]] double area() const { return std::max(1.0, cv::contourArea(hull_)); }
+
+ private:
+  std::vector<cv::Point2f> points_, hull_;
+  double reach_ = 0;
+};
+
+/// A hypothesis that was kept, with what it claims of the scene.
+struct Claim {
+  Claim(Hypothesis h, const SceneContext& scene)
+      : hypothesis(std::move(h)), region(hypothesis, scene.grid.features()) {
+    const auto& entry = scene.models.views()[static_cast<std::size_t>(hypothesis.view)];
+    object = entry.object;
+    box = cv::boundingRect(transform_polygon(hypothesis.scene_from_view, entry.view->outline));
+  }
+
+  Hypothesis hypothesis;
+  Region region;
+  int object = 0;
+  cv::Rect2f box;
+};
+
+/// `front` hides a part of `back` when the latter has hardly a match where it should have many.
+bool stands_in_front(const Region& front, const Region& back) {
+  const double expected = std::min(1.0, front.area() / back.area()) * front.share_in(back);
+  return back.share_in(front) < 0.25 * expected;
 }
 
-bool uses_taken(const Hypothesis& hypothesis, const std::vector<char>& taken) {
-  return std::ranges::any_of(hypothesis.evidence.inliers, [&](const Match& match) {
-    return taken[static_cast<std::size_t>(match.scene)] != 0;
+/// Share of a claim's matched scene features that look like one of the other claim's: a second copy
+/// of an object shows what the first shows.
+double resemblance(const Claim& claim, const Claim& other, const SceneContext& scene) {
+  const cv::Mat& descriptors = scene.grid.features().descriptors;
+  const auto& own = claim.hypothesis.evidence.inliers;
+  const auto alike = std::ranges::count_if(own, [&](const Match& match) {
+    const float limit =
+        scene.neighborhood.reference(match.scene, match.view, match.feature).distance;
+    return std::ranges::any_of(other.hypothesis.evidence.inliers, [&](const Match& candidate) {
+      return descriptor_distance(descriptors, match.scene, descriptors, candidate.scene) < limit;
+    });
   });
+  return static_cast<double>(alike) / static_cast<double>(own.size());
+}
+
+/// Another side of the same thing: near the better claim, but showing other features. Two copies of
+/// one object side by side show the same ones.
+bool is_other_side(const Claim& claim, const Claim& better, const SceneContext& scene) {
+  if (claim.object != better.object) return false;
+  const cv::Point2f between = claim.region.centre() - better.region.centre();
+  const float reach = std::max(better.box.width, better.box.height);
+  constexpr double kCopy = 0.25;  // of the features; copies share most, sides next to none
+  return cv::norm(between) < reach && resemblance(claim, better, scene) < kCopy;
+}
+
+/// No two things are in one place.
+bool is_excluded(const Claim& claim, const std::vector<Claim>& better, const SceneContext& scene,
+                 double max_overlap) {
+  return std::ranges::any_of(better, [&](const Claim& other) {
+    if (is_other_side(claim, other, scene)) return true;
+    if (overlap(other.box, claim.box) <= max_overlap) return false;
+    return other.object == claim.object || !stands_in_front(claim.region, other.region);
+  });
+}
+
+/// Scene features that are explained by better claims, as flags.
+std::vector<char> features_taken(const Claim& claim, const std::vector<Claim>& better,
+                                 const Features& scene) {
+  std::vector<char> taken(scene.size(), 0);
+  for (const Claim& other : better) {
+    if (stands_in_front(claim.region, other.region)) continue;
+    for (std::size_t s = 0; s < scene.size(); ++s)
+      if (other.region.contains({scene.keypoints[s].x, scene.keypoints[s].y})) taken[s] = 1;
+  }
+  return taken;
+}
+
+/// How far the view is from how the object is seen: log of largest over smallest stretch at the
+/// centre.
+double distortion(const Claim& claim, const SceneContext& scene) {
+  const View& view = *scene.models.views()[static_cast<std::size_t>(claim.hypothesis.view)].view;
+  cv::Vec2d stretch;
+  cv::SVD::compute(local_jacobian(claim.hypothesis.scene_from_view, view.centre), stretch,
+                   cv::SVD::NO_UV);
+  return std::log(stretch[0] / std::max(1e-9, stretch[1]));
+}
+
+/// Several views of an object explain the same features. The features say which object it is, but
+/// the outline is best taken from the view that needs the least distortion: of those with nearly
+/// the evidence of the strongest, that one goes first. `claims` are sorted, best first.
+void prefer_least_distorted(std::vector<Claim>& claims, const SceneContext& scene) {
+  constexpr double kNearly = 0.6;  // of the strongest one's digits
+  for (auto first = claims.begin(); first != claims.end(); ++first) {
+    auto best = first;
+    for (auto other = first + 1; other != claims.end(); ++other) {
+      const double digits = other->hypothesis.log10_false_alarms;
+      if (digits > kNearly * first->hypothesis.log10_false_alarms) break;
+      if (other->object != first->object || other->region.share_in(first->region) < 0.5) continue;
+      if (distortion(*other, scene) < distortion(*best, scene)) best = other;
+    }
+    std::rotate(first, best, best + 1);
+  }
 }
 
 }  // namespace
@@ -38,19 +146,20 @@ std::vector<Hypothesis> compete(std::vector<Hypothesis> hypotheses, const SceneC
                                 const RecognizeOptions& options) {
   std::erase_if(hypotheses, [](const Hypothesis& h) { return !h.rejected.empty(); });
   std::ranges::stable_sort(hypotheses, {}, &Hypothesis::log10_false_alarms);
-  std::vector<char> taken(scene.grid.features().size(), 0);
-  std::vector<Hypothesis> kept;
-  for (Hypothesis& hypothesis : hypotheses) {
-    const bool known = std::ranges::any_of(kept, [&](const Hypothesis& other) {
-      return object_of(other, scene) == object_of(hypothesis, scene) &&
-             overlap(box_of(other, scene), box_of(hypothesis, scene)) > options.max_overlap;
-    });
-    if (known) continue;
-    if (uses_taken(hypothesis, taken)) reconsider(hypothesis, scene, taken, options.verify);
-    if (!hypothesis.rejected.empty()) continue;
-    take_features(hypothesis, taken);
-    kept.push_back(std::move(hypothesis));
+  std::vector<Claim> candidates, claims;
+  for (Hypothesis& hypothesis : hypotheses) candidates.emplace_back(std::move(hypothesis), scene);
+  prefer_least_distorted(candidates, scene);
+  for (Claim& claim : candidates) {
+    if (is_excluded(claim, claims, scene, options.max_overlap)) continue;
+    const std::vector<char> taken = features_taken(claim, claims, scene.grid.features());
+    const bool contested = std::ranges::any_of(
+        claim.hypothesis.evidence.inliers,
+        [&](const Match& match) { return taken[static_cast<std::size_t>(match.scene)] != 0; });
+    if (contested) reconsider(claim.hypothesis, scene, taken, options.verify);
+    if (claim.hypothesis.rejected.empty()) claims.push_back(std::move(claim));
   }
+  std::vector<Hypothesis> kept;
+  for (Claim& claim : claims) kept.push_back(std::move(claim.hypothesis));
   return kept;
 }
 

@@ -155,7 +155,7 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
 
   const ModelSet& models = *now.models;
   const Neighborhood neighborhood(now.index->search(scene, options.match.neighbors), models);
-  const auto matches = match_features(neighborhood, models, options.match);
+  const auto matches = match_features(neighborhood, options.match);
   result.counts.matched = count_distinct(matches, [](const Match& m) { return m.scene; });
   result.time_ms.match = watch.lap();
 
@@ -164,7 +164,8 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
   result.time_ms.vote = watch.lap();
 
   const SceneGrid grid(scene, size);
-  const SceneContext context{models, neighborhood, grid, matches};
+  SceneRivals rivals(models, scene, options.verify.evidence.rivals);
+  const SceneContext context{models, neighborhood, grid, matches, rivals};
   auto hypotheses = options.rule == "paper"
                         ? apply_paper_rule(clusters, context, options.paper)
                         : compete(verify_all(clusters, context, options), context, options);

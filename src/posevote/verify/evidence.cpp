@@ -12,16 +12,16 @@ struct Candidate {
   double chance;
 };
 
-float descriptor_distance(const cv::Mat& a, int row_a, const cv::Mat& b, int row_b) {
-  const float* pa = a.ptr<float>(row_a);
-  const float* pb = b.ptr<float>(row_b);
-  float sum = 0;
-  for (int i = 0; i < a.cols; ++i) sum += (pa[i] - pb[i]) * (pa[i] - pb[i]);
-  return std::sqrt(sum);
-}
-
 float angle_between(float a, float b) {
   return std::abs(std::remainder(a - b, 2 * std::numbers::pi_v<float>));
+}
+
+/// Chance that one random descriptor comes as near. Below a tenth of the reference the power law is
+/// not trusted any more.
+double chance_of(float distance, const Reference& reference, const EvidenceOptions& options) {
+  if (!(reference.distance > 0)) return 1;
+  const double ratio = std::max(0.1F, distance / reference.distance);
+  return std::min(1.0, reference.rate * std::pow(ratio, options.dimension));
 }
 
 /// What a view's key point must look like in the scene.
@@ -45,6 +45,40 @@ bool fits(const Keypoint& found, const Keypoint& expected, const EvidenceOptions
   if (std::abs(std::log2(found.scale / expected.scale)) > octaves) return false;
   return angle_between(found.angle, expected.angle) <=
          static_cast<float>(options.max_rotation_deg) * std::numbers::pi_v<float> / 180;
+}
+
+struct Trial {
+  int count = 0;          ///< scene features of fitting place, scale and rotation
+  Candidate best{{}, 1};  ///< chance 1: none that counts
+};
+
+Trial try_feature(const cv::Matx33d& scene_from_view, float tolerance_px, int view, int feature,
+                  const SceneContext& scene, const std::vector<char>& taken,
+                  const EvidenceOptions& options) {
+  const Features& known = scene.models.views()[static_cast<std::size_t>(view)].view->features;
+  const Features& found = scene.grid.features();
+  Trial trial;
+  const Keypoint expected =
+      predict(scene_from_view, known.keypoints[static_cast<std::size_t>(feature)]);
+  if (!(expected.scale > 0) || std::isnan(expected.x)) return trial;
+  scene.grid.for_each_near({expected.x, expected.y}, tolerance_px, [&](int s) {
+    if (!taken.empty() && taken[static_cast<std::size_t>(s)]) return;
+    if (!fits(found.keypoints[static_cast<std::size_t>(s)], expected, options)) return;
+    ++trial.count;
+    const Reference reference = scene.neighborhood.reference(s, view, feature);
+    const float distance = descriptor_distance(found.descriptors, s, known.descriptors, feature);
+    const float ratio = reference.distance > 0 ? distance / reference.distance : 2.F;
+    if (ratio > static_cast<float>(options.max_ratio)) return;
+    const double chance = chance_of(distance, reference, options);
+    if (chance < trial.best.chance) trial.best = {{s, view, feature, distance, ratio}, chance};
+  });
+  if (trial.best.chance < 1) {
+    const Reference rivals = scene.rivals.reference(view, feature);
+    trial.best.chance =
+        std::max(trial.best.chance, chance_of(trial.best.match.distance, rivals, options));
+    trial.best.chance = std::min(1.0, trial.best.chance * trial.count);
+  }
+  return trial;
 }
 
 /// Keeps the most convincing candidates such that no scene feature serves twice and no two lie on
@@ -71,57 +105,35 @@ void EvidenceOptions::describe(OptionList& list) {
            "How fast chance matches get rarer with smaller descriptor distance: the exponent.");
   list.add("max_ratio", max_ratio, {0.1, 3}, "",
            "Largest distance of a guided match, as a share of the reference distance.");
-  list.add("similarity_tolerance", similarity_tolerance, {0, 1}, "",
-           "Search radius about the predicted place, in object sizes, similarity transforms.");
-  list.add("affine_tolerance", affine_tolerance, {0, 1}, "", "The same for affine transforms.");
-  list.add("homography_tolerance", homography_tolerance, {0, 1}, "", "The same for homographies.");
+  list.add("tolerance", tolerance, {0, 1}, "",
+           "Search radius about a feature's predicted place, in object sizes.");
   list.add("min_tolerance_px", min_tolerance_px, {0.1, 100}, "px", "Smallest search radius.");
+  list.add("rivals", rivals, {1, 1000}, "",
+           "A view feature's match must stand out against the so-many-th nearest scene feature.");
   list.add("max_rotation_deg", max_rotation_deg, {1, 180}, "deg",
            "Largest difference of a match's rotation to the pose's.");
   list.add("max_scale_octaves", max_scale_octaves, {0.1, 10}, "",
            "Largest difference of a match's scale to the pose's, in doublings.");
 }
 
-float EvidenceOptions::tolerance_px(TransformKind kind, double object_size_px) const {
-  const double share = kind == TransformKind::similarity ? similarity_tolerance
-                       : kind == TransformKind::affine   ? affine_tolerance
-                                                         : homography_tolerance;
-  return static_cast<float>(std::max(min_tolerance_px, share * object_size_px));
+float EvidenceOptions::tolerance_px(double object_size_px) const {
+  return static_cast<float>(std::max(min_tolerance_px, tolerance * object_size_px));
 }
 
 Evidence gather_evidence(const cv::Matx33d& scene_from_view, float tolerance_px, int view,
-                         const ModelSet& models, const SceneGrid& grid,
-                         const Neighborhood& neighborhood, const std::vector<char>& taken,
+                         const SceneContext& scene, const std::vector<char>& taken,
                          const EvidenceOptions& options) {
-  const auto& entry = models.views()[static_cast<std::size_t>(view)];
-  const Features& known = entry.view->features;
-  const Features& scene = grid.features();
+  const Features& known = scene.models.views()[static_cast<std::size_t>(view)].view->features;
   Evidence evidence;
   std::vector<Candidate> candidates;
   for (int i = 0; i < static_cast<int>(known.size()); ++i) {
-    const Keypoint expected =
-        predict(scene_from_view, known.keypoints[static_cast<std::size_t>(i)]);
-    if (!(expected.scale > 0) || std::isnan(expected.x)) continue;
-    int count = 0;
-    Candidate best{{}, 2};
-    grid.for_each_near({expected.x, expected.y}, tolerance_px, [&](int s) {
-      if (!taken.empty() && taken[static_cast<std::size_t>(s)]) return;
-      if (!fits(scene.keypoints[static_cast<std::size_t>(s)], expected, options)) return;
-      ++count;
-      const Reference reference = neighborhood.reference(s, entry.object);
-      const float distance = descriptor_distance(scene.descriptors, s, known.descriptors, i);
-      const float ratio = reference.distance > 0 ? distance / reference.distance : 2.F;
-      const double chance = reference.rate * std::pow(std::max(ratio, 0.1F), options.dimension);
-      if (chance < best.chance) best = {{s, view, i, distance, ratio}, chance};
-    });
-    if (count == 0) continue;
+    const Trial trial = try_feature(scene_from_view, tolerance_px, view, i, scene, taken, options);
+    if (trial.count == 0) continue;
     ++evidence.trials;
-    best.chance = std::min(1.0, best.chance * count);
-    if (best.match.ratio <= static_cast<float>(options.max_ratio) && best.chance < 1)
-      candidates.push_back(best);
+    if (trial.best.chance < 1) candidates.push_back(trial.best);
   }
   std::vector<double> chances;
-  for (const Candidate& candidate : distinct(std::move(candidates), scene)) {
+  for (const Candidate& candidate : distinct(std::move(candidates), scene.grid.features())) {
     evidence.inliers.push_back(candidate.match);
     chances.push_back(candidate.chance);
   }
@@ -131,16 +143,13 @@ Evidence gather_evidence(const cv::Matx33d& scene_from_view, float tolerance_px,
   return evidence;
 }
 
-double log10_pose_count(TransformKind kind, cv::Size scene_size, double object_size_px,
-                        double tolerance_px) {
+double log10_pose_count(cv::Size scene_size, double object_size_px, double tolerance_px) {
   // A pose parameter that moves the object's rim by one tolerance makes another pose.
   const double rim = std::max(1.0, 0.5 * object_size_px / tolerance_px);
   double poses = std::log10(std::max(1.0, scene_size.area() / (tolerance_px * tolerance_px)));
-  poses += std::log10(2 * std::numbers::pi * rim);   // rotation
-  poses += std::log10(std::numbers::ln2 * 6 * rim);  // scale, six doublings
-  if (kind != TransformKind::similarity)
-    poses += 2 * std::log10(rim);  // stretch and shear to +-50 %
-  if (kind == TransformKind::homography) poses += 2 * std::log10(std::max(1.0, 0.5 * rim));
+  poses += std::log10(2 * std::numbers::pi * rim);    // rotation
+  poses += std::log10(std::numbers::ln2 * 6 * rim);   // scale, six doublings
+  poses += 2 * std::log10(std::max(1.0, 0.5 * rim));  // stretch and shear to +-25 %
   return poses;
 }
 

@@ -20,22 +20,23 @@
 
 #include "posevote/core/options.hpp"
 #include "posevote/match/matcher.hpp"
-#include "posevote/verify/scene_grid.hpp"
+#include "posevote/verify/scene_context.hpp"
 #include "posevote/verify/transform.hpp"
 
 namespace posevote {
 
 struct EvidenceOptions {
-  double dimension = 8;    ///< exponent of the distance law above
-  double max_ratio = 1.0;  ///< guided matches: distance / reference distance
-  double similarity_tolerance = 0.06, affine_tolerance = 0.035, homography_tolerance = 0.02;
+  double dimension = 8;     ///< exponent of the distance law above
+  double max_ratio = 1.0;   ///< guided matches: distance / reference distance
+  double tolerance = 0.03;  ///< search radius about the predicted place, in object sizes
   double min_tolerance_px = 3;
+  int rivals = 8;                  ///< how many scene features may resemble a view feature
   double max_rotation_deg = 30;    ///< rotation of a match against that of the pose
   double max_scale_octaves = 0.7;  ///< scale of a match against that of the pose
   void describe(OptionList& list);
 
   /// Search radius in the scene for an object of that size (px).
-  [[nodiscard]] float tolerance_px(TransformKind kind, double object_size_px) const;
+  [[nodiscard]] float tolerance_px(double object_size_px) const;
 };
 
 /// The evidence for one pose of one view.
@@ -49,14 +50,13 @@ struct Evidence {
 /// Guided matching: for every view feature the best scene feature of fitting place, scale and
 /// rotation. `taken[s]` != 0 leaves scene feature s out (empty: none).
 [[nodiscard]] Evidence gather_evidence(const cv::Matx33d& scene_from_view, float tolerance_px,
-                                       int view, const ModelSet& models, const SceneGrid& grid,
-                                       const Neighborhood& neighborhood,
+                                       int view, const SceneContext& scene,
                                        const std::vector<char>& taken,
                                        const EvidenceOptions& options);
 
-/// log10 of the number of poses that can be told apart at this tolerance.
-[[nodiscard]] double log10_pose_count(TransformKind kind, cv::Size scene_size,
-                                      double object_size_px, double tolerance_px);
+/// log10 of the number of similarity and affine poses that can be told apart at this tolerance.
+[[nodiscard]] double log10_pose_count(cv::Size scene_size, double object_size_px,
+                                      double tolerance_px);
 
 /// log10 of the binomial coefficient n over k.
 [[nodiscard]] double log10_binomial(int n, int k);

@@ -12,7 +12,6 @@ Hypothesis fit_bin(const PoseCluster& cluster, const SceneContext& scene,
                    const PaperOptions& options) {
   Hypothesis result;
   result.view = cluster.view;
-  result.kind = TransformKind::homography;
   const View& view = *scene.models.views()[static_cast<std::size_t>(cluster.view)].view;
   std::vector<cv::Point2f> from, to;
   for (const int m : cluster.matches) {

@@ -64,7 +64,7 @@ double msac_cost(const cv::Matx33d& transform, const std::vector<PointPair>& pai
 cv::Matx33d propose_similarity(const std::vector<PointPair>& pairs, double object_size,
                                const EvidenceOptions& options) {
   constexpr std::size_t kFirst = 24;
-  const double limit = options.tolerance_px(TransformKind::similarity, object_size);
+  const double limit = 2 * options.tolerance_px(object_size);
   cv::Matx33d best = cv::Matx33d::zeros();
   double best_cost = limit * limit * static_cast<double>(pairs.size());
   const std::size_t count = std::min(pairs.size(), kFirst);
@@ -80,40 +80,37 @@ cv::Matx33d propose_similarity(const std::vector<PointPair>& pairs, double objec
   return best;
 }
 
-double log10_trials(TransformKind kind, const SceneContext& scene, double size, double tolerance) {
-  return std::log10(static_cast<double>(scene.models.views().size())) +
-         log10_pose_count(kind, scene.grid.size(), size, tolerance);
-}
-
 /// Evidence of a given pose, with its number of false alarms.
-Hypothesis judge(int view, TransformKind kind, const cv::Matx33d& transform,
-                 const SceneContext& scene, const std::vector<char>& taken,
-                 const VerifyOptions& options, double widen = 1) {
+Hypothesis judge(int view, const cv::Matx33d& transform, const SceneContext& scene,
+                 const std::vector<char>& taken, const VerifyOptions& options, double widen = 1) {
   Hypothesis result;
   result.view = view;
-  result.kind = kind;
   result.scene_from_view = transform;
   const double size = scene_size_of(view_of(scene, view), transform);
-  result.tolerance_px = static_cast<float>(widen) * options.evidence.tolerance_px(kind, size);
-  result.evidence = gather_evidence(transform, result.tolerance_px, view, scene.models, scene.grid,
-                                    scene.neighborhood, taken, options.evidence);
-  result.log10_false_alarms =
-      result.evidence.log10_chance + log10_trials(kind, scene, size, result.tolerance_px);
+  result.tolerance_px = static_cast<float>(widen) * options.evidence.tolerance_px(size);
+  result.evidence =
+      gather_evidence(transform, result.tolerance_px, view, scene, taken, options.evidence);
+  result.log10_false_alarms = result.evidence.log10_chance +
+                              std::log10(static_cast<double>(scene.models.views().size())) +
+                              log10_pose_count(scene.grid.size(), size, result.tolerance_px);
   return result;
 }
 
-/// Fits and gathers in turn, from a wider to the final tolerance.
-Hypothesis refine(Hypothesis start, TransformKind kind, const SceneContext& scene,
+/// Fits a pose and gathers evidence in turn, from a wide to the final tolerance; ends with the
+/// best.
+Hypothesis refine(const Hypothesis& start, const SceneContext& scene,
                   const VerifyOptions& options) {
-  Hypothesis current = std::move(start);
-  for (const double widen : {1.5, 1.0, 1.0}) {
-    const auto transform = fit_transform(kind, points_of(scene, current.evidence.inliers));
-    const View& view = view_of(scene, current.view);
-    current.rejected = why_implausible(transform, view.outline, options.plausibility);
-    if (!current.rejected.empty()) return current;
-    current = judge(current.view, kind, transform, scene, {}, options, widen);
+  const View& view = view_of(scene, start.view);
+  const ViewFrame frame{view.centre, 0.5 * view_size(view)};
+  Hypothesis best = start, current = start;
+  for (const double widen : {1.5, 1.0, 1.0, 1.0}) {
+    const auto transform = fit_pose(points_of(scene, current.evidence.inliers), frame,
+                                    0.5 * current.tolerance_px, options.pose);
+    if (!why_implausible(transform, view.outline, options.plausibility).empty()) break;
+    current = judge(start.view, transform, scene, {}, options, widen);
+    if (widen == 1.0 && current.log10_false_alarms < best.log10_false_alarms) best = current;
   }
-  return current;
+  return best;
 }
 
 void decide(Hypothesis& hypothesis, const VerifyOptions& options) {
@@ -132,6 +129,7 @@ void VerifyOptions::describe(OptionList& list) {
            "The dial: how many false detections in 1000 pictures are acceptable.");
   list.add("min_inliers", min_inliers, {3, 1000}, "", "Fewest features that make a detection.");
   list.group("evidence", evidence);
+  list.group("pose", pose);
   list.group("plausibility", plausibility);
 }
 
@@ -146,28 +144,21 @@ Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
   best.rejected = why_implausible(proposal, view.outline, options.plausibility);
   if (!best.rejected.empty()) return best;
 
-  best = judge(cluster.view, TransformKind::similarity, proposal, scene, {}, options);
+  best = judge(cluster.view, proposal, scene, {}, options, 1.5);
   // Refinement gains a few matches, not dozens: what is far from the goal now is given up.
   constexpr double kHopeless = 6;
   if (best.log10_false_alarms > kHopeless) {
     best.rejected = "so much agreement happens by chance";
     return best;
   }
-  for (const auto kind :
-       {TransformKind::similarity, TransformKind::affine, TransformKind::homography}) {
-    if (static_cast<int>(best.evidence.inliers.size()) < points_needed(kind) + 1) break;
-    Hypothesis refined = refine(best, kind, scene, options);
-    if (refined.rejected.empty() && refined.log10_false_alarms < best.log10_false_alarms)
-      best = std::move(refined);
-  }
+  best = refine(best, scene, options);
   decide(best, options);
   return best;
 }
 
 void reconsider(Hypothesis& hypothesis, const SceneContext& scene, const std::vector<char>& taken,
                 const VerifyOptions& options) {
-  hypothesis =
-      judge(hypothesis.view, hypothesis.kind, hypothesis.scene_from_view, scene, taken, options);
+  hypothesis = judge(hypothesis.view, hypothesis.scene_from_view, scene, taken, options);
   decide(hypothesis, options);
 }
 

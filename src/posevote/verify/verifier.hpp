@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "posevote/verify/evidence.hpp"
+#include "posevote/verify/pose_fit.hpp"
 #include "posevote/verify/transform.hpp"
 #include "posevote/vote/hough.hpp"
 
@@ -14,6 +15,7 @@ struct VerifyOptions {
   double false_alarms_per_1000_images = 1;  ///< the dial
   int min_inliers = 5;
   EvidenceOptions evidence;
+  PoseFitOptions pose;
   PlausibilityOptions plausibility;
   void describe(OptionList& list);
 };
@@ -21,20 +23,11 @@ struct VerifyOptions {
 /// A pose of a view with its evidence.
 struct Hypothesis {
   int view = 0;  ///< index into ModelSet::views()
-  TransformKind kind = TransformKind::similarity;
   cv::Matx33d scene_from_view;
   float tolerance_px = 0;
   Evidence evidence;
   double log10_false_alarms = 0;  ///< per image, with the number of poses and views tried
   std::string rejected;           ///< "" or why the cluster is no object: plain words
-};
-
-/// Everything the verification of one scene reads; must outlive the calls.
-struct SceneContext {
-  const ModelSet& models;
-  const Neighborhood& neighborhood;
-  const SceneGrid& grid;
-  const std::vector<Match>& matches;
 };
 
 /// Finds the pose on which most of the cluster agrees, extends it by guided matching, refines it as

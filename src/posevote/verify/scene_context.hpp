@@ -1,0 +1,43 @@
+// Everything that verification reads of one scene.
+#pragma once
+
+#include <vector>
+
+#include "posevote/match/matcher.hpp"
+#include "posevote/model/model_set.hpp"
+#include "posevote/verify/scene_grid.hpp"
+
+namespace posevote {
+
+/// How near the scene's features come to a taught feature: the distance of the `rank`-th nearest.
+/// Up to `rank` - 1 of them may be copies of the object; the others show that such a descriptor is
+/// nothing special here. Computed on demand and kept; one per scene and thread.
+class SceneRivals {
+ public:
+  SceneRivals(const ModelSet& models, const Features& scene, int rank);
+
+  /// Distance of the rank-th nearest scene feature, and rank / number of scene features. With fewer
+  /// features than `rank` the farthest.
+  [[nodiscard]] Reference reference(int view, int feature);
+
+ private:
+  const ModelSet& models_;
+  const Features& scene_;
+  int rank_;
+  std::vector<std::vector<float>> distances_;  ///< by view and feature; negative: not computed yet
+  std::vector<float> buffer_;
+};
+
+/// References only: what they name must outlive it.
+struct SceneContext {
+  const ModelSet& models;
+  const Neighborhood& neighborhood;
+  const SceneGrid& grid;
+  const std::vector<Match>& matches;
+  SceneRivals& rivals;
+};
+
+/// Euclidean distance of two descriptors: row `row_a` of a and `row_b` of b, CV_32F of one length.
+[[nodiscard]] float descriptor_distance(const cv::Mat& a, int row_a, const cv::Mat& b, int row_b);
+
+}  // namespace posevote

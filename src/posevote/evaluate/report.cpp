@@ -139,13 +139,6 @@ std::string section_html(const ReportSection& section) {
   return charts.empty() ? html : html + wrap("div", "charts", charts);
 }
 
-std::vector<TestOutcome> with_negatives(const Evaluation& evaluation) {
-  auto outcomes = evaluation.outcomes;
-  outcomes.insert(outcomes.end(), evaluation.negative_outcomes.begin(),
-                  evaluation.negative_outcomes.end());
-  return outcomes;
-}
-
 ChartSeries alarms_over_threshold(const std::string& name,
                                   const std::vector<TestOutcome>& outcomes) {
   ChartSeries series{name, {}};
@@ -180,7 +173,7 @@ Chart precision_recall_chart(const Evaluation& evaluation) {
   const int asked = summarize("", evaluation.dataset, evaluation.outcomes).asked;
   for (const Ranking& ranking : rankings()) {
     ChartSeries series{ranking.name, {}};
-    for (const CurvePoint& point : make_curve(rank_detections(with_negatives(evaluation), ranking)))
+    for (const CurvePoint& point : make_curve(rank_with_negatives(evaluation, ranking)))
       if (asked > 0)
         series.points.push_back(
             {static_cast<double>(point.right) / asked,

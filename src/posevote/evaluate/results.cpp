@@ -21,11 +21,8 @@ std::vector<Summary> groups_and_whole(const Evaluation& evaluation) {
 }
 
 double recall_at_zero(const Evaluation& evaluation, const Ranking& ranking) {
-  auto ranked = rank_detections(evaluation.outcomes, ranking);
-  const auto negatives = rank_detections(evaluation.negative_outcomes, ranking);
-  ranked.insert(ranked.end(), negatives.begin(), negatives.end());
   const int asked = summarize("", evaluation.dataset, evaluation.outcomes).asked;
-  return recall_without_false_positives(ranked, asked);
+  return recall_without_false_positives(rank_with_negatives(evaluation, ranking), asked);
 }
 
 // JSON has no NaN.

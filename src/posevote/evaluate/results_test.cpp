@@ -71,6 +71,13 @@ TEST(SetTable, CountsNegativesForTheThresholdWithoutFalsePositives) {
   EXPECT_EQ(recall_at_zero(), "33.3 %");
 }
 
+TEST(RankWithNegatives, TakesOnlyFalseOnesFromTheNegatives) {
+  Evaluation evaluation = small_evaluation();
+  evaluation.negatives = evaluation.dataset;
+  evaluation.negative_outcomes = evaluation.outcomes;
+  EXPECT_EQ(rank_with_negatives(evaluation, ranking("probability")).size(), 3U);
+}
+
 TEST(ToJson, HoldsCountsGroupsAndNegatives) {
   const auto json = nlohmann::json::parse(to_json(small_evaluation()));
   EXPECT_EQ(json["dataset"], "small");

@@ -98,6 +98,14 @@ std::vector<RankedDetection> rank_detections(const std::vector<TestOutcome>& out
   return ranked;
 }
 
+std::vector<RankedDetection> rank_with_negatives(const Evaluation& evaluation,
+                                                 const Ranking& ranking) {
+  auto ranked = rank_detections(evaluation.outcomes, ranking);
+  for (const RankedDetection& detection : rank_detections(evaluation.negative_outcomes, ranking))
+    if (!detection.right) ranked.push_back(detection);
+  return ranked;
+}
+
 std::vector<CurvePoint> make_curve(std::vector<RankedDetection> detections) {
   std::ranges::sort(detections, std::greater{}, &RankedDetection::value);
   std::vector<CurvePoint> curve;

@@ -55,6 +55,10 @@ struct RankedDetection {
 [[nodiscard]] std::vector<RankedDetection> rank_detections(const std::vector<TestOutcome>& outcomes,
                                                            const Ranking& ranking);
 
+/// Of the set and, the false ones only, of the negatives.
+[[nodiscard]] std::vector<RankedDetection> rank_with_negatives(const Evaluation& evaluation,
+                                                               const Ranking& ranking);
+
 /// What is left when only detections with at least `threshold` count. Verdicts are those of the
 /// whole run: a duplicate does not become right when the claim before it is left out.
 struct CurvePoint {

@@ -34,7 +34,6 @@ double share(const cv::Mat& part, double whole) {
   return cv::countNonZero(part) / whole;
 }
 
-// The median over the true background of picture - background is taken out before "darker" is
 // asked.
 cv::Mat darker_pixels(const cv::Mat& picture, const cv::Mat& background) {
   cv::Mat p, b;
@@ -140,6 +139,7 @@ void run(const fs::path& folder, const std::string& sheets, int every) {
     }
   }
   report(dataset.at("name").get<std::string>(), std::move(cases));
+  std::fflush(stdout);
 }
 
 }  // namespace

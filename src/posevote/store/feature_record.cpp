@@ -15,7 +15,7 @@ FeatureRecord record_features(FeatureOptions options) {
   return record;
 }
 
-FeatureOptions recorded_options(const FeatureRecord& record) {
+FeatureOptions parse_settings(const FeatureRecord& record) {
   FeatureOptions options;
   const OptionList list = list_options(options);
   std::istringstream lines(record.settings);
@@ -25,9 +25,14 @@ FeatureOptions recorded_options(const FeatureRecord& record) {
     try {
       list.set(line.substr(0, equals), line.substr(equals + 1));
     } catch (const Error&) {
-      continue;  // a setting of another version; what matters is in the signature, checked below
+      continue;  // a setting of another version
     }
   }
+  return options;
+}
+
+FeatureOptions recorded_options(const FeatureRecord& record) {
+  const FeatureOptions options = parse_settings(record);
   if (options.signature() != record.signature)
     throw Error(ErrorCode::feature_mismatch,
                 "the database holds features '" + record.signature +

@@ -15,8 +15,11 @@ struct FeatureRecord {
 
 [[nodiscard]] FeatureRecord record_features(FeatureOptions options);
 
-/// The options of a record; settings that this version does not know are left at their defaults.
-/// Throws Error{feature_mismatch} when this version would make features of another signature.
+/// The options in a record; settings that this version does not know stay at their defaults.
+[[nodiscard]] FeatureOptions parse_settings(const FeatureRecord& record);
+
+/// The same, when this version makes features of the recorded signature with them; else throws
+/// Error{feature_mismatch}.
 [[nodiscard]] FeatureOptions recorded_options(const FeatureRecord& record);
 
 }  // namespace posevote

@@ -1,6 +1,7 @@
 #include "posevote/feature/simd/kernels.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "posevote/feature/simd/kernels.cpp"
@@ -191,32 +192,68 @@ const NodeTable& Nodes() {
   return table;
 }
 
+// Where the boxes of a vector of nodes begin in an array of the given stride.
+template <class D>
+HWY_INLINE hn::Vec<hn::RebindToSigned<D>> NodeIndex(D d, const SumsView& view,
+                                                    const PatchFrame& frame, int stride, int node) {
+  const hn::RebindToSigned<D> di;
+  const NodeTable& nodes = Nodes();
+  const float shift = static_cast<float>(frame.side - 1) / 2;
+  const auto cosine = hn::Set(d, frame.cosine), sine = hn::Set(d, frame.sine);
+  const auto u = hn::Load(d, nodes.u + node), v = hn::Load(d, nodes.v + node);
+  const auto x =
+      hn::Add(hn::Set(d, frame.x - shift), hn::Sub(hn::Mul(u, cosine), hn::Mul(v, sine)));
+  const auto y =
+      hn::Add(hn::Set(d, frame.y - shift), hn::Add(hn::Mul(u, sine), hn::Mul(v, cosine)));
+  const auto zero = hn::Zero(di);
+  const auto xi = hn::Min(hn::Max(hn::NearestInt(x), zero), hn::Set(di, view.width - frame.side));
+  const auto yi = hn::Min(hn::Max(hn::NearestInt(y), zero), hn::Set(di, view.height - frame.side));
+  return hn::Add(hn::Mul(yi, hn::Set(di, stride)), xi);
+}
+
 HWY_INLINE void SamplePatch(const SumsView& view, const PatchFrame& frame,
                             float* HWY_RESTRICT patch) {
   const hn::CappedTag<float, 16> d;
   const hn::RebindToSigned<decltype(d)> di;
-  const NodeTable& nodes = Nodes();
-  const float shift = static_cast<float>(frame.side - 1) / 2;
-  const auto cosine = hn::Set(d, frame.cosine), sine = hn::Set(d, frame.sine);
-  const auto x0 = hn::Set(d, frame.x - shift), y0 = hn::Set(d, frame.y - shift);
-  const auto right = hn::Set(di, view.width - frame.side);
-  const auto bottom = hn::Set(di, view.height - frame.side);
-  const auto zero = hn::Zero(di), stride = hn::Set(di, static_cast<std::int32_t>(view.stride));
   const auto* sums = reinterpret_cast<const std::int32_t*>(view.sums);
   const std::int32_t* lower = sums + frame.side * view.stride;
   for (int k = 0; k < kNodesPadded; k += static_cast<int>(hn::Lanes(d))) {
-    const auto u = hn::Load(d, nodes.u + k), v = hn::Load(d, nodes.v + k);
-    const auto x = hn::Add(x0, hn::Sub(hn::Mul(u, cosine), hn::Mul(v, sine)));
-    const auto y = hn::Add(y0, hn::Add(hn::Mul(u, sine), hn::Mul(v, cosine)));
-    const auto xi = hn::Min(hn::Max(hn::NearestInt(x), zero), right);
-    const auto yi = hn::Min(hn::Max(hn::NearestInt(y), zero), bottom);
-    const auto at = hn::Add(hn::Mul(yi, stride), xi);
+    const auto at = NodeIndex(d, view, frame, static_cast<int>(view.stride), k);
     const auto upper_sum =
         hn::Sub(hn::GatherIndex(di, sums, at), hn::GatherIndex(di, sums + frame.side, at));
     const auto lower_sum =
         hn::Sub(hn::GatherIndex(di, lower + frame.side, at), hn::GatherIndex(di, lower, at));
     hn::Store(hn::ConvertTo(d, hn::Add(upper_sum, lower_sum)), d, patch + k);
   }
+}
+
+// One load per node where the boxes are there already: of two neighbours, the first is kept.
+HWY_INLINE void SampleBoxes(const SumsView& view, const BoxesView& boxes, const PatchFrame& frame,
+                            float* HWY_RESTRICT patch) {
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const auto* base = reinterpret_cast<const std::int32_t*>(boxes.boxes);
+  for (int k = 0; k < kNodesPadded; k += static_cast<int>(hn::Lanes(d))) {
+    const auto at = NodeIndex(d, view, frame, static_cast<int>(boxes.stride), k);
+    const auto both = hn::GatherOffset(di, base, hn::Add(at, at));
+    hn::Store(hn::ConvertTo(d, hn::And(both, hn::Set(di, 0xFFFF))), d, patch + k);
+  }
+}
+
+void BoxRow(const SumsView& view, int y, int side, int count, std::uint16_t* HWY_RESTRICT out) {
+  const hn::ScalableTag<std::int32_t> d;
+  const hn::Rebind<std::uint16_t, decltype(d)> d16;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const auto* upper = reinterpret_cast<const std::int32_t*>(view.sums) + y * view.stride;
+  const std::int32_t* lower = upper + side * view.stride;
+  int x = 0;
+  for (; x + lanes <= count; x += lanes) {
+    const auto right = hn::Sub(hn::LoadU(d, lower + x + side), hn::LoadU(d, upper + x + side));
+    const auto left = hn::Sub(hn::LoadU(d, lower + x), hn::LoadU(d, upper + x));
+    hn::StoreU(hn::DemoteTo(d16, hn::Sub(right, left)), d16, out + x);
+  }
+  for (; x < count; ++x)
+    out[x] = static_cast<std::uint16_t>(lower[x + side] - upper[x + side] - lower[x] + upper[x]);
 }
 
 // Column i of the 24 adds to the square `column` with the weight bins[column][i].
@@ -234,9 +271,13 @@ const BinTable& Bins() {
   return table;
 }
 
-void Descriptor(const SumsView& view, const PatchFrame& frame, float* HWY_RESTRICT out) {
+void Descriptor(const SumsView& view, const BoxesView& boxes, const PatchFrame& frame,
+                float* HWY_RESTRICT out) {
   alignas(64) float patch[kNodesPadded];
-  SamplePatch(view, frame, patch);
+  if (boxes.boxes && std::endian::native == std::endian::little)
+    SampleBoxes(view, boxes, frame, patch);
+  else
+    SamplePatch(view, frame, patch);
   const hn::CappedTag<float, 8> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const DescriptorWeights& weights = descriptor_weights();
@@ -357,6 +398,7 @@ HWY_EXPORT(HessianRow);
 HWY_EXPORT(FindMaxima);
 HWY_EXPORT(Descriptor);
 HWY_EXPORT(SectorSums);
+HWY_EXPORT(BoxRow);
 
 void smooth_row(const std::uint8_t* const rows[5], int count, std::uint16_t* scratch,
                 std::uint8_t* out) {
@@ -376,8 +418,12 @@ int find_maxima(const float* const rows[kMaximaRows], int count, float threshold
   return HWY_DYNAMIC_DISPATCH(FindMaxima)(rows, count, threshold, columns);
 }
 
-void descriptor(const SumsView& view, const PatchFrame& frame, float* out) {
-  HWY_DYNAMIC_DISPATCH(Descriptor)(view, frame, out);
+void descriptor(const SumsView& view, const BoxesView& boxes, const PatchFrame& frame, float* out) {
+  HWY_DYNAMIC_DISPATCH(Descriptor)(view, boxes, frame, out);
+}
+
+void box_row(const SumsView& view, int y, int side, int count, std::uint16_t* out) {
+  HWY_DYNAMIC_DISPATCH(BoxRow)(view, y, side, count, out);
 }
 
 void sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* x, float* y) {

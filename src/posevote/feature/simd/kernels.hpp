@@ -22,6 +22,13 @@ struct PatchFrame {
   int side;  ///< px, of the boxes whose means are sampled; at most the picture's own sides
 };
 
+/// Sums of all boxes of one side, at most 16 px: boxes[y * stride + x] is that of the box whose top
+/// left pixel is (x, y). Null: not made, the sums are looked up instead, with the same result.
+struct BoxesView {
+  const std::uint16_t* boxes = nullptr;
+  std::ptrdiff_t stride = 0;
+};
+
 inline constexpr int kPatchNodes = 25;  ///< corners of the 24 x 24 samples, along one side
 inline constexpr int kDescriptorSize = 64;
 inline constexpr int kMaximaRows = 9;
@@ -44,8 +51,13 @@ void hessian_row(const SumsView& view, int x, int y, int count, int lobe, float 
 /// neighbours; rows: three layers of three rows each, top row first. Returns how many there are.
 int find_maxima(const float* const rows[kMaximaRows], int count, float threshold, int* columns);
 
-/// The 64 numbers described in surf/descriptor.hpp, not yet normalised.
-void descriptor(const SumsView& view, const PatchFrame& frame, float* out);
+/// The 64 numbers described in surf/descriptor.hpp, not yet normalised. `boxes`: of side
+/// frame.side.
+void descriptor(const SumsView& view, const BoxesView& boxes, const PatchFrame& frame, float* out);
+
+/// out[x] = the sum of the box of `side` (at most 16) with the top left pixel (x, y), x < count;
+/// out[count] is read too by `descriptor`.
+void box_row(const SumsView& view, int y, int side, int count, std::uint16_t* out);
 
 /// Haar wavelets at 11 x 11 points, the middle one in the middle: point (i, j) has its corners at
 /// the nodes [j], [j + 2], [j + 4] x [i], [i + 2], [i + 4] of the grid of sums. Columns from 15 on
@@ -74,6 +86,7 @@ void integral_row(const std::uint8_t* pixels, const std::uint32_t* above, int co
 void hessian_row(const SumsView& view, int x, int y, int count, int lobe, float norm, float* out);
 int find_maxima(const float* const rows[kMaximaRows], int count, float threshold, int* columns);
 void descriptor(const SumsView& view, const PatchFrame& frame, float* out);
+void box_row(const SumsView& view, int y, int side, int count, std::uint16_t* out);
 }  // namespace plain
 
 /// Weights of the descriptor: a square of 9 x 9 samples has the taps w[i] * w[j] (sigma 2.5), the

@@ -101,12 +101,43 @@ TEST_P(Kernels, DescriptorIsThePlainOneInsideAndAcrossTheBorder) {
                                static_cast<int>(scale + 0.5F)};
         float expected[kDescriptorSize], found[kDescriptorSize];
         plain::descriptor(view, frame, expected);
-        descriptor(view, frame, found);
+        descriptor(view, {}, frame, found);
         float largest = 1;
         for (const float value : expected) largest = std::max(largest, std::abs(value));
         for (int i = 0; i < kDescriptorSize; ++i)
           ASSERT_NEAR(found[i] / largest, expected[i] / largest, 2e-5) << i;
       }
+}
+
+TEST_P(Kernels, BoxRowIsThePlainOneUpToTheLargestSum) {
+  std::vector<std::uint32_t> white(sums.size());
+  for (int y = 0; y <= kHeight; ++y)
+    for (int x = 0; x <= kWidth; ++x)
+      white[y * (kWidth + 1) + x] = static_cast<std::uint32_t>(255 * x * y);
+  for (const SumsView& picture : {view, SumsView{white.data(), view.stride, kWidth, kHeight}})
+    for (const int side : {1, 2, 5, 16})
+      for (const int count : {0, 1, 9, 64, kWidth - side + 1}) {
+        std::vector<std::uint16_t> expected(count + 1), found(count + 1);
+        plain::box_row(picture, 20, side, count, expected.data());
+        box_row(picture, 20, side, count, found.data());
+        ASSERT_EQ(found, expected) << side << " " << count;
+      }
+}
+
+TEST_P(Kernels, DescriptorFromBoxesIsTheSameBitForBit) {
+  for (const int side : {1, 2, 7, 16}) {
+    std::vector<std::uint16_t> boxes(view.stride * kHeight + 1);
+    for (int y = 0; y + side <= kHeight; ++y)
+      box_row(view, y, side, kWidth - side + 1, &boxes[y * view.stride]);
+    for (const auto& [x, y] : {std::pair{75.3F, 60.8F}, {150.9F, 132.9F}}) {
+      const auto scale = static_cast<float>(side);
+      const PatchFrame frame{x, y, scale * 0.8F, scale * 0.6F, side};
+      float expected[kDescriptorSize], found[kDescriptorSize];
+      descriptor(view, {}, frame, expected);
+      descriptor(view, {boxes.data(), view.stride}, frame, found);
+      for (int i = 0; i < kDescriptorSize; ++i) ASSERT_EQ(found[i], expected[i]);
+    }
+  }
 }
 
 TEST_P(Kernels, SectorSumsAreThePlainOnes) {

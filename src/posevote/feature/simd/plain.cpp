@@ -139,6 +139,11 @@ void descriptor(const SumsView& view, const PatchFrame& frame, float* out) {
     }
 }
 
+void box_row(const SumsView& view, int y, int side, int count, std::uint16_t* out) {
+  for (int x = 0; x < count; ++x)
+    out[x] = static_cast<std::uint16_t>(box(view, x, y, x + side - 1, y + side - 1));
+}
+
 void sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* x, float* y) {
   float bin_x[kAngleBins] = {}, bin_y[kAngleBins] = {};
   for (int j = range.first_row; j <= range.last_row; ++j)

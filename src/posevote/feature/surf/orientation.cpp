@@ -10,12 +10,15 @@ namespace {
 // Positions past the margin are moved to it.
 simd::WaveletGrid read_grid(const Integral& integral, int x0, int y0, int step) {
   simd::WaveletGrid grid;
+  int columns[simd::kWaveletNodes];
+  for (int i = 0; i < simd::kWaveletNodes; ++i)
+    columns[i] = std::clamp(x0 + i * step, 0, integral.width());
+  const simd::SumsView view = integral.view();
   for (int j = 0; j < simd::kWaveletNodes; ++j) {
-    const int y = std::clamp(y0 + j * step, 0, integral.height());
-    for (int i = 0; i < simd::kWaveletNodes; ++i) {
-      const int x = std::clamp(x0 + i * step, 0, integral.width());
-      grid.sums[j][i] = static_cast<std::int32_t>(integral.at(y, x));
-    }
+    const std::uint32_t* row =
+        view.sums + std::clamp(y0 + j * step, 0, integral.height()) * view.stride;
+    for (int i = 0; i < simd::kWaveletNodes; ++i)
+      grid.sums[j][i] = static_cast<std::int32_t>(row[columns[i]]);
     std::fill(grid.sums[j] + simd::kWaveletNodes, std::end(grid.sums[j]), 0);
   }
   return grid;

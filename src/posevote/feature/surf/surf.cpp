@@ -89,13 +89,16 @@ cv::Mat Workspace::describe_all(std::vector<Keypoint>& keypoints, const FeatureO
     return std::pair(static_cast<int>(keypoints[i].y) / 32, keypoints[i].x);
   });
   Stopwatch watch;
+  if (with_descriptors) boxes_.prepare(integral_, keypoints);
   run_team(team_size(options.surf), [&](const Member& member) {
     if (!options.surf.upright)
       for (int k = member.begin(count); k < member.end(count); ++k)
         keypoints[order[k]].angle = orientation(integral_, keypoints[order[k]]);
     if (member.index() == 0) times_.orientation = watch.lap();
-    for (int k = member.begin(count); k < member.end(count) && with_descriptors; ++k)
-      surf::describe(integral_, keypoints[order[k]], descriptors.ptr<float>(order[k]));
+    if (!with_descriptors) return;
+    boxes_.compute(member);
+    for (int k = member.begin(count); k < member.end(count); ++k)
+      surf::describe(integral_, boxes_, keypoints[order[k]], descriptors.ptr<float>(order[k]));
   });
   times_.descriptor = watch.lap();
   return descriptors;

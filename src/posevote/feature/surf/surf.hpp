@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "posevote/feature/features.hpp"
+#include "posevote/feature/surf/descriptor.hpp"
 #include "posevote/feature/surf/hessian.hpp"
 #include "posevote/feature/surf/integral.hpp"
 
@@ -38,6 +39,7 @@ class Workspace {
   cv::Mat grey_;
   Integral integral_;
   BlobSearch search_;
+  BoxSums boxes_;
   StageTimes times_;
 };
 

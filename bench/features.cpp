@@ -1,0 +1,225 @@
+// bench_features [FOLDER] [--rounds N] [--picture FILE]
+//
+// Time of our SURF against OpenCV's ORB and dlib's SURF at the same number of key points, in one
+// process and in turns, so that all suffer alike from whatever else the machine does. The pictures
+// are mosaics of the photographs in FOLDER (default ../shared/data/oxford-affine) at their own
+// resolution, or FILE scaled to each size. Printed per size and number of key points: the median
+// time of each, the median of the ratios of neighbouring turns (wall clock and processor time), our
+// stages, and before everything else the machine's memory bandwidth and our peak memory at 8
+// megapixels.
+#include <dlib/image_keypoint.h>
+#include <dlib/opencv.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "posevote/feature/surf/surf.hpp"
+
+namespace {
+
+using posevote::surf::StageTimes;
+using posevote::surf::Workspace;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::ranges::nth_element(values, values.begin() + values.size() / 2);
+  return values[values.size() / 2];
+}
+
+struct Duration {
+  double wall = 0, processor = 0;  // ms; the processor's is of the calling thread alone
+};
+
+double processor_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+Duration time_of(const std::function<void()>& action) {
+  const auto start = std::chrono::steady_clock::now();
+  const double processor = processor_ms();
+  action();
+  const double used = processor_ms() - processor;
+  const auto wall = std::chrono::steady_clock::now() - start;
+  return {std::chrono::duration<double, std::milli>(wall).count(), used};
+}
+
+// All photographs of the folder, again and again, row by row, until the canvas is full.
+cv::Mat mosaic(const std::filesystem::path& folder, cv::Size size) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".png" || entry.path().extension() == ".jpg")
+      files.push_back(entry.path());
+  std::ranges::sort(files);
+  if (files.empty()) throw std::runtime_error("no pictures in " + folder.string());
+  cv::Mat canvas(size, CV_8U);
+  std::size_t next = 0;
+  for (int y = 0, row_height = 0; y < size.height; y += row_height) {
+    row_height = size.height - y;
+    for (int x = 0; x < size.width;) {
+      const cv::Mat photo =
+          cv::imread(files[next++ * 7 % files.size()].string(), cv::IMREAD_GRAYSCALE);
+      if (photo.empty()) continue;
+      if (x == 0) row_height = std::min(row_height, photo.rows);
+      const int width = std::min(photo.cols, size.width - x);
+      const int height = std::min(photo.rows, row_height);
+      canvas(cv::Rect(x, y, width, row_height)).setTo(0);
+      photo(cv::Rect(0, 0, width, height)).copyTo(canvas(cv::Rect(x, y, width, height)));
+      x += width;
+    }
+  }
+  return canvas;
+}
+
+double bandwidth_gb() {
+  constexpr std::size_t kBytes = 64 << 20;
+  std::vector<char> from(kBytes, 1), to(kBytes, 2);
+  std::vector<double> rates;
+  for (int round = 0; round < 9; ++round) {
+    const auto time = time_of([&] { std::memcpy(to.data(), from.data(), kBytes); });
+    rates.push_back(2 * static_cast<double>(kBytes) / time.processor * 1e-6);
+  }
+  return median(rates);
+}
+
+double peak_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+struct Series {
+  std::vector<double> wall, processor;
+  void add(const Duration& duration) {
+    wall.push_back(duration.wall);
+    processor.push_back(duration.processor);
+  }
+};
+
+double ratio(const std::vector<double>& ours, const std::vector<double>& theirs) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i)
+    ratios.push_back(ours[i] / theirs[i]);
+  return median(ratios);
+}
+
+void compare(const cv::Mat& picture, int count, int rounds) {
+  posevote::FeatureOptions options;
+  options.max_features = count;
+  auto two = options;
+  two.surf.threads = 2;
+  Workspace one_workspace, two_workspace;
+  const auto orb = cv::ORB::create(count);
+  Series ours, pair, orbs, dlibs;
+  std::vector<StageTimes> stages;
+  std::size_t found = 0, orb_found = 0, dlib_found = 0;
+  for (int round = -1; round < rounds; ++round) {  // the first one fills caches and buffers
+    const auto a = time_of([&] { found = one_workspace.extract(picture, {}, options).size(); });
+    const auto b = time_of([&] {
+      std::vector<cv::KeyPoint> points;
+      cv::Mat rows;
+      orb->detectAndCompute(picture, {}, points, rows);
+      orb_found = points.size();
+    });
+    const auto c = time_of([&] { (void)two_workspace.extract(picture, {}, two); });
+    if (round < 0) continue;
+    ours.add(a);
+    orbs.add(b);
+    pair.add(c);
+    stages.push_back(one_workspace.times());
+    if (round % 4 == 0)  // many times slower than the others
+      dlibs.add(time_of([&] {
+        dlib_found =
+            dlib::get_surf_points(dlib::cv_image<unsigned char>(picture), count, 1.0).size();
+      }));
+  }
+  Series every_fourth;
+  for (std::size_t i = 0; i < ours.wall.size(); i += 4)
+    every_fourth.add({ours.wall[i], ours.processor[i]});
+  const auto stage = [&](double StageTimes::*field) {
+    std::vector<double> values;
+    for (const StageTimes& times : stages) values.push_back(times.*field);
+    return median(values);
+  };
+  std::printf(
+      "%4dx%-4d %5zu/%5zu/%5zu | %7.2f %7.2f %8.2f %7.2f | %5.2f (%4.2f)  %5.1f (%4.1f)  %4.2f"
+      " | %5.2f %6.2f %5.2f %5.2f %5.2f\n",
+      picture.cols, picture.rows, found, orb_found, dlib_found, median(ours.wall),
+      median(orbs.wall), median(dlibs.wall), median(pair.wall), ratio(ours.wall, orbs.wall),
+      ratio(ours.processor, orbs.processor), ratio(dlibs.wall, every_fourth.wall),
+      ratio(dlibs.processor, every_fourth.processor), ratio(ours.wall, pair.wall),
+      stage(&StageTimes::integral), stage(&StageTimes::hessian), stage(&StageTimes::selection),
+      stage(&StageTimes::orientation), stage(&StageTimes::descriptor));
+  std::fflush(stdout);
+}
+
+void print_memory(const cv::Mat& picture) {
+  const double before = peak_mb();
+  posevote::FeatureOptions options;
+  options.max_features = 5000;
+  Workspace workspace;
+  (void)workspace.extract(picture, {}, options);
+  const double used = peak_mb() - before;
+  const double floats = static_cast<double>(picture.total()) * 4 / (1 << 20);
+  std::printf("our peak memory at %dx%d: %.0f MB = %.2f times the picture in floats\n",
+              picture.cols, picture.rows, used, used / floats);
+}
+
+void run(const std::filesystem::path& folder, const std::string& file, int rounds) {
+  cv::setNumThreads(1);
+  const auto picture_of = [&](cv::Size size) {
+    if (file.empty()) return mosaic(folder, size);
+    cv::Mat picture = cv::imread(file, cv::IMREAD_GRAYSCALE);
+    if (picture.empty()) throw std::runtime_error("cannot read " + file);
+    cv::resize(picture, picture, size, 0, 0, cv::INTER_AREA);
+    return picture;
+  };
+  const cv::Size sizes[] = {{640, 480}, {1920, 1080}, {3264, 2448}};
+  print_memory(picture_of(sizes[2]));
+  std::printf("memory bandwidth (copy, read + written): %.1f GB/s\n\n", bandwidth_gb());
+  std::printf(
+      "ms, medians of %d turns; ratios: medians of the turns', in brackets of processor time\n"
+      "%-9s %-17s | %7s %7s %8s %7s | %12s  %13s  %4s | %s\n",
+      rounds, "size", "found/orb/dlib", "surf", "orb", "dlib", "surf x2", "surf/orb", "dlib/surf",
+      "x1/2", "integral hessian selection orientation descriptor");
+  for (const cv::Size size : sizes) {
+    const cv::Mat picture = picture_of(size);
+    for (const int count : {500, 1000, 2000, 5000})
+      compare(picture, count, size.width > 2000 ? std::max(1, rounds / 3) : rounds);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    std::filesystem::path folder = "../shared/data/oxford-affine";
+    std::string file;
+    int rounds = 31;
+    for (int i = 1; i < argc; ++i) {
+      const std::string argument = argv[i];
+      if (argument == "--rounds" && i + 1 < argc)
+        rounds = std::max(1, std::stoi(argv[++i]));
+      else if (argument == "--picture" && i + 1 < argc)
+        file = argv[++i];
+      else
+        folder = argument;
+    }
+    run(folder, file, rounds);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_features: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

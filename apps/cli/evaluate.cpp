@@ -154,11 +154,22 @@ void work_on(const Dataset& dataset, const Dataset& negatives, const EvaluateArg
                                      taught.taught(), method));
 }
 
+// What the library refuses in an argument is wrong usage.
+template <class Read>
+auto read_argument(const Read& read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    wrong_usage(error.what());
+  }
+}
+
 void run(const EvaluateArguments& arguments, CommandContext& context) {
-  Method method = make_method(arguments.preset, read_settings(arguments.settings));
+  Method method = read_argument(
+      [&] { return make_method(arguments.preset, read_settings(arguments.settings)); });
   method.jobs = arguments.jobs;
   method.progress = show_progress();
-  const auto requirements = parse_requirements(arguments.require);
+  const auto requirements = read_argument([&] { return parse_requirements(arguments.require); });
   if (thread_count(arguments.jobs) > 1) cv::setNumThreads(1);
   Dataset negatives;
   if (!arguments.negatives.empty()) negatives = load_dataset(arguments.negatives);

@@ -244,7 +244,13 @@ std::filesystem::path write_report(const std::string& html, const std::filesyste
 
 std::string make_markdown(const std::vector<Evaluation>& evaluations,
                           const std::vector<ReportSection>& sections) {
-  std::string text = set_table(evaluations).to_markdown();
+  std::string text =
+      "# Accuracy\n\nWritten by `posevote evaluate DATASET... --markdown FILE`. Right: the name of "
+      "a "
+      "listed object not found before, and boxes that overlap by at least one half (intersection "
+      "over union, inside the picture); any other answer is a false positive, except on objects "
+      "that are optional or hidden to more than 85 %. 95 %: Wilson's interval of the recall.\n\n";
+  text += set_table(evaluations).to_markdown();
   for (const Evaluation& evaluation : evaluations) {
     text += "\n## " + evaluation.dataset.name + "\n\n" + evaluation.dataset.description + "\n\n" +
             group_table(evaluation).to_markdown() + "\n" + time_table(evaluation).to_markdown();

@@ -1,7 +1,6 @@
 #include "posevote/feature/simd/kernels.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "posevote/feature/simd/kernels.cpp"
@@ -192,52 +191,48 @@ const NodeTable& Nodes() {
   return table;
 }
 
-// Where the boxes of a vector of nodes begin in an array of the given stride.
-template <class D>
-HWY_INLINE hn::Vec<hn::RebindToSigned<D>> NodeIndex(D d, const SumsView& view,
-                                                    const PatchFrame& frame, int stride, int node) {
-  const hn::RebindToSigned<D> di;
+// Where the boxes of all nodes begin in an array of the given stride.
+HWY_INLINE void NodeIndices(const SumsView& view, const PatchFrame& frame,
+                            std::ptrdiff_t row_stride, std::int32_t* HWY_RESTRICT index) {
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToSigned<decltype(d)> di;
   const NodeTable& nodes = Nodes();
   const float shift = static_cast<float>(frame.side - 1) / 2;
   const auto cosine = hn::Set(d, frame.cosine), sine = hn::Set(d, frame.sine);
-  const auto u = hn::Load(d, nodes.u + node), v = hn::Load(d, nodes.v + node);
-  const auto x =
-      hn::Add(hn::Set(d, frame.x - shift), hn::Sub(hn::Mul(u, cosine), hn::Mul(v, sine)));
-  const auto y =
-      hn::Add(hn::Set(d, frame.y - shift), hn::Add(hn::Mul(u, sine), hn::Mul(v, cosine)));
-  const auto zero = hn::Zero(di);
-  const auto xi = hn::Min(hn::Max(hn::NearestInt(x), zero), hn::Set(di, view.width - frame.side));
-  const auto yi = hn::Min(hn::Max(hn::NearestInt(y), zero), hn::Set(di, view.height - frame.side));
-  return hn::Add(hn::Mul(yi, hn::Set(di, stride)), xi);
-}
-
-HWY_INLINE void SamplePatch(const SumsView& view, const PatchFrame& frame,
-                            float* HWY_RESTRICT patch) {
-  const hn::CappedTag<float, 16> d;
-  const hn::RebindToSigned<decltype(d)> di;
-  const auto* sums = reinterpret_cast<const std::int32_t*>(view.sums);
-  const std::int32_t* lower = sums + frame.side * view.stride;
+  const auto x0 = hn::Set(d, frame.x - shift), y0 = hn::Set(d, frame.y - shift);
+  const auto right = hn::Set(di, view.width - frame.side);
+  const auto bottom = hn::Set(di, view.height - frame.side);
+  const auto zero = hn::Zero(di), stride = hn::Set(di, static_cast<std::int32_t>(row_stride));
   for (int k = 0; k < kNodesPadded; k += static_cast<int>(hn::Lanes(d))) {
-    const auto at = NodeIndex(d, view, frame, static_cast<int>(view.stride), k);
-    const auto upper_sum =
-        hn::Sub(hn::GatherIndex(di, sums, at), hn::GatherIndex(di, sums + frame.side, at));
-    const auto lower_sum =
-        hn::Sub(hn::GatherIndex(di, lower + frame.side, at), hn::GatherIndex(di, lower, at));
-    hn::Store(hn::ConvertTo(d, hn::Add(upper_sum, lower_sum)), d, patch + k);
+    const auto u = hn::Load(d, nodes.u + k), v = hn::Load(d, nodes.v + k);
+    const auto x = hn::Add(x0, hn::Sub(hn::Mul(u, cosine), hn::Mul(v, sine)));
+    const auto y = hn::Add(y0, hn::Add(hn::Mul(u, sine), hn::Mul(v, cosine)));
+    const auto xi = hn::Min(hn::Max(hn::NearestInt(x), zero), right);
+    const auto yi = hn::Min(hn::Max(hn::NearestInt(y), zero), bottom);
+    hn::Store(hn::Add(hn::Mul(yi, stride), xi), di, index + k);
   }
 }
 
-// One load per node where the boxes are there already: of two neighbours, the first is kept.
-HWY_INLINE void SampleBoxes(const SumsView& view, const BoxesView& boxes, const PatchFrame& frame,
+// Plain loads: a gather of eight takes 50 cycles on Zen 3, the eight loads 4 to 8.
+HWY_INLINE void SamplePatch(const SumsView& view, const BoxesView& boxes, const PatchFrame& frame,
                             float* HWY_RESTRICT patch) {
+  alignas(64) std::int32_t index[kNodesPadded], sums[kNodesPadded];
+  NodeIndices(view, frame, boxes.boxes ? boxes.stride : view.stride, index);
+  if (boxes.boxes) {
+#pragma GCC unroll 8
+    for (int k = 0; k < kNodesPadded; ++k) sums[k] = boxes.boxes[index[k]];
+  } else {
+    const std::uint32_t* upper = view.sums;
+    const std::uint32_t* lower = upper + frame.side * view.stride;
+    for (int k = 0; k < kNodesPadded; ++k) {
+      const std::int32_t left = index[k], right = left + frame.side;
+      sums[k] = static_cast<std::int32_t>(lower[right] - lower[left] - upper[right] + upper[left]);
+    }
+  }
   const hn::CappedTag<float, 16> d;
   const hn::RebindToSigned<decltype(d)> di;
-  const auto* base = reinterpret_cast<const std::int32_t*>(boxes.boxes);
-  for (int k = 0; k < kNodesPadded; k += static_cast<int>(hn::Lanes(d))) {
-    const auto at = NodeIndex(d, view, frame, static_cast<int>(boxes.stride), k);
-    const auto both = hn::GatherOffset(di, base, hn::Add(at, at));
-    hn::Store(hn::ConvertTo(d, hn::And(both, hn::Set(di, 0xFFFF))), d, patch + k);
-  }
+  for (int k = 0; k < kNodesPadded; k += static_cast<int>(hn::Lanes(d)))
+    hn::Store(hn::ConvertTo(d, hn::Load(di, sums + k)), d, patch + k);
 }
 
 void BoxRow(const SumsView& view, int y, int side, int count, std::uint16_t* HWY_RESTRICT out) {
@@ -274,10 +269,7 @@ const BinTable& Bins() {
 void Descriptor(const SumsView& view, const BoxesView& boxes, const PatchFrame& frame,
                 float* HWY_RESTRICT out) {
   alignas(64) float patch[kNodesPadded];
-  if (boxes.boxes && std::endian::native == std::endian::little)
-    SampleBoxes(view, boxes, frame, patch);
-  else
-    SamplePatch(view, frame, patch);
+  SamplePatch(view, boxes, frame, patch);
   const hn::CappedTag<float, 8> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const DescriptorWeights& weights = descriptor_weights();

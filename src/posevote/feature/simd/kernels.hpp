@@ -55,8 +55,7 @@ int find_maxima(const float* const rows[kMaximaRows], int count, float threshold
 /// frame.side.
 void descriptor(const SumsView& view, const BoxesView& boxes, const PatchFrame& frame, float* out);
 
-/// out[x] = the sum of the box of `side` (at most 16) with the top left pixel (x, y), x < count;
-/// out[count] is read too by `descriptor`.
+/// out[x] = the sum of the box of `side` (at most 16) with the top left pixel (x, y), x < count.
 void box_row(const SumsView& view, int y, int side, int count, std::uint16_t* out);
 
 /// Haar wavelets at 11 x 11 points, the middle one in the middle: point (i, j) has its corners at

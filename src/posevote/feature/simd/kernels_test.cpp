@@ -126,7 +126,7 @@ TEST_P(Kernels, BoxRowIsThePlainOneUpToTheLargestSum) {
 
 TEST_P(Kernels, DescriptorFromBoxesIsTheSameBitForBit) {
   for (const int side : {1, 2, 7, 16}) {
-    std::vector<std::uint16_t> boxes(view.stride * kHeight + 1);
+    std::vector<std::uint16_t> boxes(view.stride * kHeight);
     for (int y = 0; y + side <= kHeight; ++y)
       box_row(view, y, side, kWidth - side + 1, &boxes[y * view.stride]);
     for (const auto& [x, y] : {std::pair{75.3F, 60.8F}, {150.9F, 132.9F}}) {

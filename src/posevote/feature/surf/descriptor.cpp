@@ -21,7 +21,7 @@ void BoxSums::prepare(const Integral& integral, const std::vector<Keypoint>& key
   const int pixels = integral.width() * integral.height();
   for (int side = 1; side <= kLargestSide; ++side) {
     wanted_[side] = count[side] > pixels / 2000;
-    if (wanted_[side]) boxes_[side].resize(static_cast<std::size_t>(pixels) + 1);
+    if (wanted_[side]) boxes_[side].resize(static_cast<std::size_t>(pixels));
   }
 }
 

@@ -1,3 +1,5 @@
+#include "commands.hpp"
+
 #include <iostream>
 
 #include "command.hpp"
@@ -5,8 +7,9 @@
 namespace posevote::cli {
 
 void add_commands(CLI::App& app, CommandContext& context) {
-  static_cast<void>(app);
-  static_cast<void>(context);
+  for (const auto add : {add_teach, add_recognize, add_objects, add_evaluate, add_dataset,
+                         add_bench, add_options, add_completion, add_man})
+    add(app, context);
 }
 
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,

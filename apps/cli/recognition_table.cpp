@@ -1,0 +1,121 @@
+#include "recognition_table.hpp"
+
+#include <cmath>
+
+#include "posevote/evaluate/statistics.hpp"
+#include "posevote/evaluate/table.hpp"
+
+namespace posevote::cli {
+namespace {
+
+struct Step {
+  const char* name;
+  double StageTimes::*time;
+  int StageCounts::*count;
+};
+
+constexpr Step steps[] = {
+    {"detect features", &StageTimes::detect, &StageCounts::features},
+    {"match", &StageTimes::match, &StageCounts::matched},
+    {"Hough clustering", &StageTimes::vote, &StageCounts::clustered},
+    {"homography, verification", &StageTimes::verify, &StageCounts::verified}};
+
+std::string whole(double value) {
+  return fixed(value, 0);
+}
+
+std::string name_of(const Detection& detection) {
+  std::string names = detection.object;
+  for (const std::string& other : detection.alternatives) names += " or " + other;
+  return names;
+}
+
+std::string place_of(const Detection& detection) {
+  const cv::Rect2d& box = detection.box;
+  return whole(box.x) + ", " + whole(box.y) + ", " + whole(box.width) + " x " + whole(box.height);
+}
+
+std::string indented(const std::string& text) {
+  std::string result;
+  bool line_begins = true;
+  for (const char c : text) {
+    if (line_begins && c != '\n') result += "  ";
+    line_begins = c == '\n';
+    result += c;
+  }
+  return result;
+}
+
+template <class Record, class Field>
+std::vector<double> column(const std::vector<Record>& records, Field field) {
+  std::vector<double> values;
+  for (const Record& record : records) values.push_back(static_cast<double>(record.*field));
+  return values;
+}
+
+}  // namespace
+
+std::string picture_table(const std::string& path, const RecognitionResult& result) {
+  Table found;
+  found.header = {"object", "confidence", "inliers", "where (x, y, size)", "view"};
+  for (const Detection& detection : result.detections)
+    found.rows.push_back({name_of(detection), percent(detection.confidence, 0),
+                          std::to_string(detection.inliers), place_of(detection), detection.view});
+  Table time;
+  time.header = {"step", "time", "features"};
+  for (const Step& step : steps)
+    time.rows.push_back({step.name, fixed(result.time_ms.*step.time, 1) + " ms",
+                         std::to_string(result.counts.*step.count)});
+  time.rows.push_back({"total", fixed(result.time_ms.total, 1) + " ms", ""});
+  return path + ", " + std::to_string(result.image_size.width) + " x " +
+         std::to_string(result.image_size.height) + "\n" +
+         (found.rows.empty() ? "  nothing recognised\n" : indented(found.to_text())) + "\n" +
+         indented(time.to_text()) + "\n";
+}
+
+std::string frame_line(std::int64_t number, double time_s, const RecognitionResult& result) {
+  std::string line = "frame " + std::to_string(number) + ", " + fixed(time_s, 2) + " s, " +
+                     fixed(result.time_ms.total, 1) + " ms:";
+  if (result.detections.empty()) line += " nothing";
+  for (const Detection& detection : result.detections)
+    line += "  " + name_of(detection) + " " + percent(detection.confidence, 0) + " at " +
+            place_of(detection) + ";";
+  return line + "\n";
+}
+
+void RecognitionTotals::add(const RecognitionResult& result) {
+  times_.push_back(result.time_ms);
+  counts_.push_back(result.counts);
+  detections_ += result.detections.size();
+}
+
+void RecognitionTotals::add(const RecognitionTotals& other) {
+  times_.insert(times_.end(), other.times_.begin(), other.times_.end());
+  counts_.insert(counts_.end(), other.counts_.begin(), other.counts_.end());
+  detections_ += other.detections_;
+  dropped_ += other.dropped_;
+}
+
+std::string RecognitionTotals::summary() const {
+  return std::to_string(times_.size()) + " pictures, " + std::to_string(detections_) +
+         " detections, median " + fixed(median(column(times_, &StageTimes::total)), 1) +
+         " ms per picture" +
+         (dropped_ > 0 ? ", " + std::to_string(dropped_) + " frames dropped" : "") + "\n";
+}
+
+std::string RecognitionTotals::steps_table() const {
+  Table table;
+  table.header = {"step", "median", "95 %", "features"};
+  for (const Step& step : steps) {
+    const auto times = column(times_, step.time);
+    table.rows.push_back({step.name, fixed(median(times), 1) + " ms",
+                          fixed(quantile(times, 0.95), 1) + " ms",
+                          whole(median(column(counts_, step.count)))});
+  }
+  const auto totals = column(times_, &StageTimes::total);
+  table.rows.push_back(
+      {"total", fixed(median(totals), 1) + " ms", fixed(quantile(totals, 0.95), 1) + " ms", ""});
+  return table.to_text();
+}
+
+}  // namespace posevote::cli

@@ -34,7 +34,7 @@ class Writer {
   template <class T>
   void array(const T* values, std::size_t count) {
     value(static_cast<std::uint32_t>(count));
-    bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+    if (count > 0) bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(T));
   }
   [[nodiscard]] std::string finish() {
     value(hash_bytes(bytes_.data(), bytes_.size()));
@@ -60,7 +60,7 @@ class Reader {
   Container array() {
     using T = typename Container::value_type;
     const std::size_t count = value<std::uint32_t>();
-    if (!take(count * sizeof(T))) return {};
+    if (!take(count * sizeof(T)) || count == 0) return {};
     Container result(count, T{});
     std::memcpy(result.data(), next_ - count * sizeof(T), count * sizeof(T));
     return result;

@@ -38,6 +38,10 @@ void FeatureOptions::describe(OptionList& list) {
   list.add("kind", kind, {"surf", "sift"}, "Kind of features.");
   list.add("max_features", max_features, {0, 10'000'000}, "",
            "Keep this many of the strongest features of a picture; 0 keeps all.");
+  list.add(
+      "double_below_px", double_below_px, {0, 1e9}, "px",
+      "SURF: pictures of fewer pixels are searched from one octave lower (enlarged by two); 0: "
+      "none.");
   list.group("surf", surf);
   list.group("sift", sift);
 }
@@ -47,11 +51,37 @@ std::string FeatureOptions::signature() const {
   return surf.upright ? "surf64 upright 1" : "surf64 1";
 }
 
+namespace {
+
+/// Starts one octave lower on small pictures, where small objects have too few pixels for the first
+/// octave; large pictures show them large enough and would cost four times as much.
+class SizeAwareExtractor : public Extractor {
+ public:
+  SizeAwareExtractor(std::shared_ptr<const Extractor> plain,
+                     std::shared_ptr<const Extractor> doubled, int double_below_px)
+      : plain_(std::move(plain)), doubled_(std::move(doubled)), double_below_px_(double_below_px) {}
+
+  [[nodiscard]] Features extract(const cv::Mat& image, const cv::Mat& mask) const override {
+    const bool small = image.total() < static_cast<std::size_t>(double_below_px_);
+    return (small ? doubled_ : plain_)->extract(image, mask);
+  }
+
+ private:
+  std::shared_ptr<const Extractor> plain_, doubled_;
+  int double_below_px_;
+};
+
+}  // namespace
+
 std::shared_ptr<const Extractor> make_extractor(const FeatureOptions& options) {
   validate_options(options);
   if (options.kind == "sift") return make_sift_extractor(options);
 #if POSEVOTE_WITH_SURF
-  return make_surf_extractor(options);
+  if (options.surf.double_size || options.double_below_px == 0) return make_surf_extractor(options);
+  FeatureOptions doubled = options;
+  doubled.surf.double_size = true;
+  return std::make_shared<SizeAwareExtractor>(
+      make_surf_extractor(options), make_surf_extractor(doubled), options.double_below_px);
 #else
   throw Error(
       ErrorCode::unsupported,

@@ -56,7 +56,9 @@ struct SiftOptions {
 
 struct FeatureOptions {
   std::string kind = "surf";  ///< "surf" or "sift"
-  int max_features = 0;       ///< keep the strongest N; 0: all
+  int max_features = 3000;    ///< keep the strongest N; 0: all
+  int double_below_px =
+      600000;  ///< SURF: smaller pictures are searched from one octave lower; 0: none
   SurfOptions surf;
   SiftOptions sift;
   void describe(OptionList& list);

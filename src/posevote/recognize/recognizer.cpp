@@ -78,10 +78,11 @@ Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
   detection.object = scene.models.name_of_view(hypothesis.view);
   detection.view = entry.view->id;
   detection.inliers = static_cast<int>(hypothesis.evidence.inliers.size());
-  detection.features_in_area = std::max(features_in_area(hypothesis, scene), detection.inliers);
+  detection.features_in_area = std::max(hypothesis.features_in_area, detection.inliers);
   detection.confidence = detection.features_in_area > 0
                              ? static_cast<double>(detection.inliers) / detection.features_in_area
                              : 0;
+  detection.coverage = hypothesis.coverage;
   detection.log10_false_alarms = hypothesis.log10_false_alarms;
   detection.probability = probability_of(hypothesis.log10_false_alarms);
   detection.scene_from_view = hypothesis.scene_from_view;

@@ -30,6 +30,7 @@ struct Detection {
   double confidence = 0;             ///< Eq. 11: matched features / scene features in the area
   double probability = 0;            ///< calibrated probability that the detection is right
   double log10_false_alarms = 0;     ///< log10 of the expected number of such accidents per image
+  double coverage = 0;               ///< share of the view's features in the part that was seen
   int inliers = 0;                   ///< f_m of Eq. 11
   int features_in_area = 0;          ///< f_t of Eq. 11
   cv::Matx33d scene_from_view;       ///< homography, view px -> scene px, (2,2) = 1

@@ -35,10 +35,11 @@ Hypothesis fit_bin(const PoseCluster& cluster, const SceneContext& scene,
 
 void verify(Hypothesis& hypothesis, const SceneContext& scene, const PaperOptions& options) {
   const int matched = static_cast<int>(hypothesis.evidence.inliers.size());
-  const int total = features_in_area(hypothesis, scene);
+  hypothesis.features_in_area =
+      features_in_area(hypothesis.view, hypothesis.scene_from_view, scene);
   if (matched < options.min_matches)
     hypothesis.rejected = "only " + std::to_string(matched) + " features agree on a homography";
-  else if (matched < options.min_confidence * total)
+  else if (matched < options.min_confidence * hypothesis.features_in_area)
     hypothesis.rejected = "too small a share of the features in its area are matched";
 }
 
@@ -50,13 +51,6 @@ void PaperOptions::describe(OptionList& list) {
   list.add("min_matches", min_matches, {4, 1000}, "", "Fewest matched features, preset 'paper'.");
   list.add("ransac_error_px", ransac_error_px, {0.1, 100}, "px",
            "Reprojection error of an inlier, preset 'paper'.");
-}
-
-int features_in_area(const Hypothesis& hypothesis, const SceneContext& scene) {
-  const View& view = *scene.models.views()[static_cast<std::size_t>(hypothesis.view)].view;
-  const auto outline = transform_polygon(hypothesis.scene_from_view, view.outline);
-  if (outline.empty()) return 0;
-  return scene.grid.count_in(cv::Rect2d(cv::boundingRect(outline)));
 }
 
 std::vector<Hypothesis> apply_paper_rule(const std::vector<PoseCluster>& clusters,

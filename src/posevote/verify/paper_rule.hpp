@@ -22,7 +22,4 @@ struct PaperOptions {
                                                        const SceneContext& scene,
                                                        const PaperOptions& options);
 
-/// f_t of Eq. 11: scene features in the bounding box of the projected outline.
-[[nodiscard]] int features_in_area(const Hypothesis& hypothesis, const SceneContext& scene);
-
 }  // namespace posevote

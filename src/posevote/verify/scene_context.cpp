@@ -14,10 +14,11 @@ Reference SceneRivals::reference(int view, int feature) {
   auto& of_view = distances_[static_cast<std::size_t>(view)];
   if (of_view.empty()) of_view.assign(known.size(), -1.F);
   float& distance = of_view[static_cast<std::size_t>(feature)];
-  const int count = static_cast<int>(scene_.size());
+  constexpr int kSample = 1000;  // the strongest; enough to tell common from rare
+  const int count = std::min(kSample, static_cast<int>(scene_.size()));
   const int rank = std::min(rank_, count);
   if (distance < 0) {
-    buffer_.resize(scene_.size());
+    buffer_.resize(static_cast<std::size_t>(count));
     for (int s = 0; s < count; ++s)
       buffer_[static_cast<std::size_t>(s)] =
           descriptor_distance(scene_.descriptors, s, known.descriptors, feature);

@@ -11,7 +11,8 @@ namespace posevote {
 
 /// How near the scene's features come to a taught feature: the distance of the `rank`-th nearest.
 /// Up to `rank` - 1 of them may be copies of the object; the others show that such a descriptor is
-/// nothing special here. Computed on demand and kept; one per scene and thread.
+/// nothing special here. The strongest 1000 features stand for the scene. Computed on demand and
+/// kept; one per scene and thread.
 class SceneRivals {
  public:
   SceneRivals(const ModelSet& models, const Features& scene, int rank);

@@ -59,6 +59,16 @@ double msac_cost(const cv::Matx33d& transform, const std::vector<PointPair>& pai
   return cost;
 }
 
+/// Two pairs make the similarity; without two more that agree nothing speaks for it.
+constexpr int kMinAgreeing = 4;
+
+int count_agreeing(const cv::Matx33d& transform, const std::vector<PointPair>& pairs,
+                   double limit) {
+  return static_cast<int>(std::ranges::count_if(pairs, [&](const PointPair& pair) {
+    return cv::norm(transform_point(transform, pair.view) - pair.scene) <= limit;
+  }));
+}
+
 /// The similarity through two of the pairs on which most of the others agree. The pairs come best
 /// first, so trying all couples of the first few is a deterministic PROSAC (Chum & Matas 2005).
 cv::Matx33d propose_similarity(const std::vector<PointPair>& pairs, double object_size,
@@ -80,6 +90,25 @@ cv::Matx33d propose_similarity(const std::vector<PointPair>& pairs, double objec
   return best;
 }
 
+/// Share of the view's features inside the hull of the matched ones, of those that the picture
+/// could show. A logo that another thing carries too covers little of the object.
+double coverage_of(const Hypothesis& hypothesis, const SceneContext& scene) {
+  const View& view = view_of(scene, hypothesis.view);
+  std::vector<cv::Point2f> matched, hull;
+  for (const Match& match : hypothesis.evidence.inliers)
+    matched.push_back(points_of(scene, match).view);
+  if (matched.size() < 3) return 0;
+  cv::convexHull(matched, hull);
+  const cv::Rect2f frame({0, 0}, cv::Size2f(scene.grid.size()));
+  int visible = 0, covered = 0;
+  for (const Keypoint& k : view.features.keypoints) {
+    if (!frame.contains(transform_point(hypothesis.scene_from_view, {k.x, k.y}))) continue;
+    ++visible;
+    covered += cv::pointPolygonTest(hull, {k.x, k.y}, false) >= 0;
+  }
+  return visible > 0 ? static_cast<double>(covered) / visible : 0;
+}
+
 /// Evidence of a given pose, with its number of false alarms.
 Hypothesis judge(int view, const cv::Matx33d& transform, const SceneContext& scene,
                  const std::vector<char>& taken, const VerifyOptions& options, double widen = 1) {
@@ -93,6 +122,8 @@ Hypothesis judge(int view, const cv::Matx33d& transform, const SceneContext& sce
   result.log10_false_alarms = result.evidence.log10_chance +
                               std::log10(static_cast<double>(scene.models.views().size())) +
                               log10_pose_count(scene.grid.size(), size, result.tolerance_px);
+  result.coverage = coverage_of(result, scene);
+  result.features_in_area = features_in_area(view, transform, scene);
   return result;
 }
 
@@ -103,7 +134,7 @@ Hypothesis refine(const Hypothesis& start, const SceneContext& scene,
   const View& view = view_of(scene, start.view);
   const ViewFrame frame{view.centre, 0.5 * view_size(view)};
   Hypothesis best = start, current = start;
-  for (const double widen : {1.5, 1.0, 1.0, 1.0}) {
+  for (const double widen : {1.5, 1.0, 1.0}) {
     const auto transform = fit_pose(points_of(scene, current.evidence.inliers), frame,
                                     0.5 * current.tolerance_px, options.pose);
     if (!why_implausible(transform, view.outline, options.plausibility).empty()) break;
@@ -118,6 +149,10 @@ void decide(Hypothesis& hypothesis, const VerifyOptions& options) {
   const int inliers = static_cast<int>(hypothesis.evidence.inliers.size());
   if (inliers < options.min_inliers)
     hypothesis.rejected = "only " + std::to_string(inliers) + " features agree on a pose";
+  else if (hypothesis.coverage < options.min_coverage)
+    hypothesis.rejected = "only a small part of it agrees";
+  else if (inliers < options.min_confidence * hypothesis.features_in_area)
+    hypothesis.rejected = "most of what is seen in its place is something else";
   else if (hypothesis.log10_false_alarms > std::log10(options.false_alarms_per_1000_images / 1000))
     hypothesis.rejected = "so much agreement happens by chance";
 }
@@ -128,9 +163,18 @@ void VerifyOptions::describe(OptionList& list) {
   list.add("false_alarms_per_1000_images", false_alarms_per_1000_images, {1e-9, 1e6}, "",
            "The dial: how many false detections in 1000 pictures are acceptable.");
   list.add("min_inliers", min_inliers, {3, 1000}, "", "Fewest features that make a detection.");
+  list.add("min_coverage", min_coverage, {0, 1}, "",
+           "Share of the taught features that must lie in the part of the object that was seen.");
+  list.add("min_confidence", min_confidence, {0, 1}, "",
+           "Share of the scene features in the object's place that must match it (Eq. 11).");
   list.group("evidence", evidence);
   list.group("pose", pose);
   list.group("plausibility", plausibility);
+}
+
+int features_in_area(int view, const cv::Matx33d& scene_from_view, const SceneContext& scene) {
+  const auto outline = transform_polygon(scene_from_view, view_of(scene, view).outline);
+  return outline.empty() ? 0 : scene.grid.count_in(cv::Rect2d(cv::boundingRect(outline)));
 }
 
 Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
@@ -143,6 +187,12 @@ Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
   const auto proposal = propose_similarity(pairs, expected_size, options.evidence);
   best.rejected = why_implausible(proposal, view.outline, options.plausibility);
   if (!best.rejected.empty()) return best;
+
+  if (count_agreeing(proposal, pairs, 2 * options.evidence.tolerance_px(expected_size)) <
+      kMinAgreeing) {
+    best.rejected = "the votes agree on no pose";
+    return best;
+  }
 
   best = judge(cluster.view, proposal, scene, {}, options, 1.5);
   // Refinement gains a few matches, not dozens: what is far from the goal now is given up.

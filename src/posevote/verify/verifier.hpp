@@ -14,6 +14,8 @@ namespace posevote {
 struct VerifyOptions {
   double false_alarms_per_1000_images = 1;  ///< the dial
   int min_inliers = 5;
+  double min_coverage = 0.05;
+  double min_confidence = 0.05;
   EvidenceOptions evidence;
   PoseFitOptions pose;
   PlausibilityOptions plausibility;
@@ -26,6 +28,8 @@ struct Hypothesis {
   cv::Matx33d scene_from_view;
   float tolerance_px = 0;
   Evidence evidence;
+  double coverage = 0;            ///< share of the view's features in the part that was seen
+  int features_in_area = 0;       ///< f_t of Eq. 11
   double log10_false_alarms = 0;  ///< per image, with the number of poses and views tried
   std::string rejected;           ///< "" or why the cluster is no object: plain words
 };
@@ -35,6 +39,10 @@ struct Hypothesis {
 /// Deterministic. `rejected` is set when no plausible pose was found or it could be chance.
 [[nodiscard]] Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
                                         const VerifyOptions& options);
+
+/// f_t of Eq. 11: scene features in the bounding box of the projected outline.
+[[nodiscard]] int features_in_area(int view, const cv::Matx33d& scene_from_view,
+                                   const SceneContext& scene);
 
 /// Looks at the evidence of a pose again without the scene features in `taken`.
 void reconsider(Hypothesis& hypothesis, const SceneContext& scene, const std::vector<char>& taken,

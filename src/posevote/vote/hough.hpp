@@ -28,7 +28,7 @@ struct VoteOptions {
       "object";  ///< "image": the paper's; "object": positions in units of the object
   int bins_x = 10, bins_y = 10, bins_scale = 10, bins_rotation = 10;  ///< of the grid "image"
   int octaves = 4;                                                    ///< n of Eq. 10
-  int min_votes = 3;        ///< a bin with at least so many scene features is looked at
+  int min_votes = 4;        ///< a bin with at least so many scene features is looked at
   double cell_size = 0.25;  ///< grid "object": side of a position bin, in object sizes
   void describe(OptionList& list);
 };

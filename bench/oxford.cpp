@@ -1,4 +1,4 @@
-// bench_oxford [FOLDER] [--features N] [OPTION=VALUE ...]
+// bench_oxford [FOLDER] [--features N] [--shrink F] [--ours] [OPTION=VALUE ...]
 //
 // How well features are found again on the sequences of Mikolajczyk et al. (IJCV 65, 2005), for our
 // SURF, dlib's SURF and OpenCV's SIFT (plain and as RootSIFT), with N key points per picture
@@ -17,10 +17,12 @@
 #include <functional>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 
 #include "posevote/core/error.hpp"
 #include "posevote/feature/features.hpp"
+#include "posevote/feature/surf/surf_extractor.hpp"
 
 namespace {
 
@@ -216,7 +218,23 @@ void print_row(const std::string& name, const std::vector<Score>& scores) {
   std::printf("\n");
 }
 
-void run(const std::filesystem::path& folder, const std::vector<Method>& methods) {
+// The picture reduced to `factor`, and the homography into it.
+void shrink(double factor, cv::Mat& picture, cv::Matx33d& h) {
+  if (factor == 1) return;
+  cv::resize(picture, picture, {}, factor, factor, cv::INTER_AREA);
+  const double shift = (factor - 1) / 2;  // pixel centres
+  h = cv::Matx33d(factor, 0, shift, 0, factor, shift, 0, 0, 1) * h;
+}
+
+void print_ratios(const std::vector<Score>& scores, const Score& dlib) {
+  std::printf("%-10s", "/ dlib");
+  for (const Score& score : scores)
+    std::printf("  | %5.2f %5.2f %6.2f", score.repeatability / dlib.repeatability,
+                score.matching / dlib.matching, score.correct / dlib.correct);
+  std::printf("\n");
+}
+
+void run(const std::filesystem::path& folder, double factor, const std::vector<Method>& methods) {
   std::printf("per method: repeatability %%, matching score %%, correct matches (<= 3 px)\n%-10s",
               "pair");
   for (const Method& method : methods) std::printf("  | %-18s", method.name.c_str());
@@ -229,8 +247,9 @@ void run(const std::filesystem::path& folder, const std::vector<Method>& methods
     std::vector<Features> reference;
     for (const Method& method : methods) reference.push_back(method.extract(first));
     for (int n = 2; n <= 6; ++n) {
-      const cv::Mat other = read_grey(sequence / ("img" + std::to_string(n) + ".png"));
-      const auto h = read_homography(sequence / ("H1to" + std::to_string(n) + "p.txt"));
+      cv::Mat other = read_grey(sequence / ("img" + std::to_string(n) + ".png"));
+      cv::Matx33d h = read_homography(sequence / ("H1to" + std::to_string(n) + "p.txt"));
+      shrink(factor, other, h);
       std::vector<Score> row;
       for (std::size_t m = 0; m < methods.size(); ++m) {
         row.push_back(
@@ -246,15 +265,7 @@ void run(const std::filesystem::path& folder, const std::vector<Method>& methods
   for (Score& sum : sums)
     sum = {sum.repeatability / pairs, sum.matching / pairs, sum.correct / pairs};
   print_row("mean", sums);
-  std::vector<Score> ratios;
-  for (const Score& sum : sums)
-    ratios.push_back({sum.repeatability / sums[1].repeatability / 100,
-                      sum.matching / sums[1].matching / 100, sum.correct / sums[1].correct});
-  std::printf("%-10s", "/ dlib");
-  for (const Score& ratio : ratios)
-    std::printf("  | %5.2f %5.2f %6.2f", 100 * ratio.repeatability, 100 * ratio.matching,
-                ratio.correct);
-  std::printf("\n");
+  if (methods.size() > 1) print_ratios(sums, sums[1]);
 }
 
 }  // namespace
@@ -263,6 +274,8 @@ int main(int argc, char** argv) {
   try {
     std::filesystem::path folder = "../shared/data/oxford-affine";
     int count = 1000;
+    double factor = 1;
+    bool only_ours = false;
     posevote::FeatureOptions ours;
     ours.surf.hessian_threshold = 1;  // let the number of key points decide, as for the others
     for (int i = 1; i < argc; ++i) {
@@ -270,22 +283,28 @@ int main(int argc, char** argv) {
       const auto equals = argument.find('=');
       if (argument == "--features" && i + 1 < argc)
         count = std::stoi(argv[++i]);
+      else if (argument == "--shrink" && i + 1 < argc)
+        factor = std::stod(argv[++i]);
+      else if (argument == "--ours")
+        only_ours = true;
       else if (equals != std::string::npos)
         posevote::list_options(ours).set(argument.substr(0, equals), argument.substr(equals + 1));
       else
         folder = argument;
     }
     ours.max_features = count;
-    const auto surf = posevote::make_extractor(ours);
+    const auto surf = posevote::make_surf_extractor(ours);
     posevote::FeatureOptions root_options;
     root_options.kind = "sift";
     root_options.max_features = count;
     const auto root_sift = posevote::make_extractor(root_options);
-    run(folder,
-        {{"posevote " + ours.kind, [&](const cv::Mat& grey) { return surf->extract(grey); }},
-         {"dlib surf", [&](const cv::Mat& grey) { return features_of_dlib(grey, count); }},
-         {"OpenCV sift", [&](const cv::Mat& grey) { return features_of_sift(grey, count); }},
-         {"posevote sift", [&](const cv::Mat& grey) { return root_sift->extract(grey); }}});
+    std::vector<Method> methods{
+        {"posevote surf", [&](const cv::Mat& grey) { return surf->extract(grey); }},
+        {"dlib surf", [&](const cv::Mat& grey) { return features_of_dlib(grey, count); }},
+        {"OpenCV sift", [&](const cv::Mat& grey) { return features_of_sift(grey, count); }},
+        {"posevote sift", [&](const cv::Mat& grey) { return root_sift->extract(grey); }}};
+    if (only_ours) methods.resize(1);
+    run(folder, factor, methods);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_oxford: %s\n", error.what());
     return 1;

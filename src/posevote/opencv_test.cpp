@@ -7,6 +7,9 @@
 #include "posevote/core/error.hpp"
 #include "posevote/feature/features.hpp"
 #include "posevote/feature/made_pictures.hpp"
+#if POSEVOTE_WITH_SURF
+#include "posevote/feature/surf/surf_extractor.hpp"
+#endif
 
 namespace posevote {
 namespace {
@@ -27,7 +30,7 @@ TEST(CreateSurf, GivesTheExtractorsFeaturesInOpenCvsUnits) {
   create_surf(100, 40)->detectAndCompute(picture, {}, points, descriptors);
   FeatureOptions options;
   options.max_features = 40;
-  const auto features = make_extractor(options)->extract(picture);
+  const auto features = make_surf_extractor(options)->extract(picture);
   ASSERT_EQ(points.size(), 40U);
   EXPECT_EQ(cv::norm(descriptors, features.descriptors, cv::NORM_INF), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -45,7 +45,7 @@ void scale_keypoints(std::vector<Keypoint>& keypoints, float factor) {
 
 void Workspace::load(const cv::Mat& image, const FeatureOptions& options) {
   grey_ = to_grey(image);
-  if (!options.surf.double_size) return;
+  if (!options.surf.double_size || grey_.empty()) return;
   cv::Mat doubled;
   cv::resize(grey_, doubled, {}, 2, 2, cv::INTER_LINEAR);
   grey_ = doubled;

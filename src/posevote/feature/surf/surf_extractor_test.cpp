@@ -68,9 +68,9 @@ TEST_P(Warp, FeaturesFollowASimilarity) {
 
   FeatureOptions options;
   options.max_features = 300;
-  const auto from = make_extractor(options)->extract(view);
+  const auto from = make_surf_extractor(options)->extract(view);
   options.max_features = 0;
-  const auto found = follow(from, make_extractor(options)->extract(scene), warp, size);
+  const auto found = follow(from, make_surf_extractor(options)->extract(scene), warp, size);
   ASSERT_GT(found.asked, 80);
   EXPECT_GT(found.repeated, found.asked * 0.7);
   EXPECT_GT(found.alike, found.repeated * 0.5);
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Similarities, Warp,
 TEST(Surf, UprightLeavesTheAngleAtZero) {
   FeatureOptions options;
   options.surf.upright = true;
-  const auto features = make_extractor(options)->extract(made::texture(160, 120));
+  const auto features = make_surf_extractor(options)->extract(made::texture(160, 120));
   ASSERT_FALSE(features.empty());
   for (const Keypoint& point : features.keypoints) EXPECT_EQ(point.angle, 0);
 }
@@ -104,7 +104,7 @@ TEST(Surf, OrientationPointsUpTheGradient) {
       }
     FeatureOptions options;
     options.max_features = 1;
-    const auto features = make_extractor(options)->extract(picture);
+    const auto features = make_surf_extractor(options)->extract(picture);
     ASSERT_EQ(features.size(), 1U);
     EXPECT_LT(angle_between(features.keypoints[0].angle, degrees * kPi / 180), 0.25) << degrees;
   }
@@ -127,21 +127,22 @@ TEST(Surf, AnyNumberOfThreadsGivesTheSameBits) {
   for (const int limit : {0, 100}) {
     options.max_features = limit;
     options.surf.threads = 1;
-    const auto expected = make_extractor(options)->extract(picture);
+    const auto expected = make_surf_extractor(options)->extract(picture);
     for (const int threads : {2, 3, 8, 0}) {
       options.surf.threads = threads;
-      EXPECT_TRUE(are_identical(make_extractor(options)->extract(picture), expected)) << threads;
+      EXPECT_TRUE(are_identical(make_surf_extractor(options)->extract(picture), expected))
+          << threads;
     }
   }
 }
 
 TEST(Surf, OneExtractorServesManyThreadsAndPicturesOfAllSizes) {
-  const auto extractor = make_extractor(FeatureOptions{});
+  const auto extractor = make_surf_extractor(FeatureOptions{});
   std::vector<cv::Mat> pictures;
   std::vector<Features> expected;
   for (const int width : {300, 40, 1, 160}) {
     pictures.push_back(made::texture(width, 120));
-    expected.push_back(make_extractor(FeatureOptions{})->extract(pictures.back()));
+    expected.push_back(make_surf_extractor(FeatureOptions{})->extract(pictures.back()));
   }
   std::vector<std::jthread> threads;
   for (int t = 0; t < 4; ++t)
@@ -153,13 +154,21 @@ TEST(Surf, OneExtractorServesManyThreadsAndPicturesOfAllSizes) {
     });
 }
 
+TEST(Surf, DoubleSizeTakesEmptyAndTinyPictures) {
+  FeatureOptions options;
+  options.surf.double_size = true;
+  const auto extractor = make_surf_extractor(options);
+  for (const cv::Size size : {cv::Size(0, 0), cv::Size(1, 1), cv::Size(3, 40)})
+    EXPECT_TRUE(extractor->extract(cv::Mat(size, CV_8U, cv::Scalar(7))).empty());
+}
+
 TEST(Surf, DoubleSizeFindsASpotTooSmallOtherwise) {
   const cv::Mat picture = made::spot(80, 60, 40.3, 30.6, 1.2, true);
   FeatureOptions options;
   options.max_features = 1;
-  EXPECT_TRUE(make_extractor(options)->extract(picture).empty());
+  EXPECT_TRUE(make_surf_extractor(options)->extract(picture).empty());
   options.surf.double_size = true;
-  const auto features = make_extractor(options)->extract(picture);
+  const auto features = make_surf_extractor(options)->extract(picture);
   ASSERT_EQ(features.size(), 1U);
   EXPECT_NEAR(features.keypoints[0].x, 40.3, 0.2);
   EXPECT_NEAR(features.keypoints[0].y, 30.6, 0.2);
@@ -173,7 +182,7 @@ TEST(Surf, SpreadTakesFeaturesOfWeakPartsToo) {
   options.surf.hessian_threshold = 1;
   options.max_features = 60;
   const auto count_weak = [&] {
-    const auto features = make_extractor(options)->extract(picture);
+    const auto features = make_surf_extractor(options)->extract(picture);
     EXPECT_EQ(features.size(), 60U);
     return std::ranges::count_if(features.keypoints, [](const Keypoint& k) { return k.x > 210; });
   };
@@ -186,7 +195,7 @@ TEST(Surf, NegativePictureTurnsTheSign) {
   const cv::Mat picture = made::texture(160, 120);
   FeatureOptions options;
   options.surf.smooth = false;  // rounds halves up, in the negative too
-  const auto extractor = make_extractor(options);
+  const auto extractor = make_surf_extractor(options);
   const auto positive = extractor->extract(picture);
   const auto negative = extractor->extract(255 - picture);
   ASSERT_EQ(positive.size(), negative.size());
@@ -200,9 +209,9 @@ TEST(Surf, BrightnessAndContrastHardlyChangeTheDescriptors) {
   picture.convertTo(pale, CV_8U, 0.5, 90);
   FeatureOptions options;
   options.max_features = 150;
-  const auto strong = make_extractor(options)->extract(picture);
+  const auto strong = make_surf_extractor(options)->extract(picture);
   options.max_features = 0;
-  const auto weak = make_extractor(options)->extract(pale);
+  const auto weak = make_surf_extractor(options)->extract(pale);
   const auto found = follow(strong, weak, cv::Matx23d(1, 0, 0, 0, 1, 0), picture.size());
   ASSERT_GT(found.asked, 10);
   EXPECT_GE(found.alike, found.asked * 0.95);

@@ -106,6 +106,7 @@ configure_file(cmake/posevote.pc.in posevote.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/posevote.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 
 # cpack -G DEB
 set(CPACK_GENERATOR DEB)

@@ -41,28 +41,24 @@ int count_clustered(const std::vector<PoseCluster>& clusters, const std::vector<
   return static_cast<int>(distinct.size());
 }
 
-/// Most of the cluster is explained by a pose of the same view that was found already.
-bool is_explained(const PoseCluster& cluster, const std::vector<Hypothesis>& found,
-                  const std::vector<Match>& matches) {
-  return std::ranges::any_of(found, [&](const Hypothesis& hypothesis) {
-    if (hypothesis.view != cluster.view || !hypothesis.rejected.empty()) return false;
-    std::size_t common = 0;
-    for (const int m : cluster.matches)
-      common += std::ranges::count(hypothesis.evidence.inliers,
-                                   matches[static_cast<std::size_t>(m)].scene, &Match::scene) > 0;
-    return 2 * common > cluster.matches.size();
-  });
+/// Neighbouring bins hold nearly the same matches: a cluster of which most were looked at is
+/// skipped.
+bool is_repeated(const PoseCluster& cluster, std::vector<char>& seen) {
+  const auto known = std::ranges::count_if(
+      cluster.matches, [&](int m) { return seen[static_cast<std::size_t>(m)] != 0; });
+  for (const int m : cluster.matches) seen[static_cast<std::size_t>(m)] = 1;
+  constexpr double kMost = 0.85;
+  return static_cast<double>(known) > kMost * static_cast<double>(cluster.matches.size());
 }
 
 std::vector<Hypothesis> verify_all(const std::vector<PoseCluster>& clusters,
                                    const SceneContext& scene, const RecognizeOptions& options) {
   std::vector<Hypothesis> found;
-  int looked_at = 0;
+  std::vector<char> seen(scene.matches.size(), 0);
   for (const PoseCluster& cluster : clusters) {
-    if (looked_at == options.max_hypotheses) break;
-    if (is_explained(cluster, found, scene.matches)) continue;
-    ++looked_at;
-    found.push_back(verify_cluster(cluster, scene, options.verify));
+    if (static_cast<int>(found.size()) == options.max_hypotheses) break;
+    if (!is_repeated(cluster, seen))
+      found.push_back(verify_cluster(cluster, scene, options.verify));
   }
   return found;
 }

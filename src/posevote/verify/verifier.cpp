@@ -153,6 +153,9 @@ void decide(Hypothesis& hypothesis, const VerifyOptions& options) {
     hypothesis.rejected = "only a small part of it agrees";
   else if (inliers < options.min_confidence * hypothesis.features_in_area)
     hypothesis.rejected = "most of what is seen in its place is something else";
+  else if (-hypothesis.log10_false_alarms * inliers <
+           options.min_evidence * hypothesis.features_in_area)
+    hypothesis.rejected = "too little of what is seen in its place agrees for so weak evidence";
   else if (hypothesis.log10_false_alarms > std::log10(options.false_alarms_per_1000_images / 1000))
     hypothesis.rejected = "so much agreement happens by chance";
 }
@@ -167,6 +170,10 @@ void VerifyOptions::describe(OptionList& list) {
            "Share of the taught features that must lie in the part of the object that was seen.");
   list.add("min_confidence", min_confidence, {0, 1}, "",
            "Share of the scene features in the object's place that must match it (Eq. 11).");
+  // These three were chosen on the development sets: another thing with the same logo or table
+  // agrees in a small part, the object itself in a large share of what is seen in its place.
+  list.add("min_evidence", min_evidence, {0, 1000}, "",
+           "Digits of the number of false alarms, times the share of Eq. 11, that are needed.");
   list.group("evidence", evidence);
   list.group("pose", pose);
   list.group("plausibility", plausibility);

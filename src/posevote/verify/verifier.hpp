@@ -15,7 +15,8 @@ struct VerifyOptions {
   double false_alarms_per_1000_images = 1;  ///< the dial
   int min_inliers = 5;
   double min_coverage = 0.05;
-  double min_confidence = 0.05;
+  double min_confidence = 0.07;
+  double min_evidence = 1.5;
   EvidenceOptions evidence;
   PoseFitOptions pose;
   PlausibilityOptions plausibility;

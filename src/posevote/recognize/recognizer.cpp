@@ -63,7 +63,8 @@ std::vector<Hypothesis> verify_all(const std::vector<PoseCluster>& clusters,
   return found;
 }
 
-/// Right detections per detection over the false-alarm count, fitted to the development sets.
+/// One true object per picture against the expected number of accidents: not calibrated on
+/// pictures, and too sure where another thing shares a part of the object.
 double probability_of(double log10_false_alarms) {
   return 1 / (1 + std::pow(10.0, std::clamp(log10_false_alarms, -12.0, 12.0)));
 }

@@ -28,7 +28,7 @@ struct Detection {
   std::string object;
   std::string view;                  ///< id of the taught view that explains it best
   double confidence = 0;             ///< Eq. 11: matched features / scene features in the area
-  double probability = 0;            ///< calibrated probability that the detection is right
+  double probability = 0;            ///< that it is no accident; see log10_false_alarms
   double log10_false_alarms = 0;     ///< log10 of the expected number of such accidents per image
   double coverage = 0;               ///< share of the view's features in the part that was seen
   int inliers = 0;                   ///< f_m of Eq. 11

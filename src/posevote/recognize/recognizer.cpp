@@ -2,30 +2,16 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "posevote/core/error.hpp"
+#include "posevote/core/stopwatch.hpp"
 #include "posevote/recognize/compete.hpp"
 
 namespace posevote {
 namespace {
-
-/// Milliseconds since it was made or last read.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
-    start_ = now;
-    return ms;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 template <class Get, class Items>
 int count_distinct(const Items& items, Get&& scene_feature_of) {

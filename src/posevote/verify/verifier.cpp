@@ -122,8 +122,6 @@ Hypothesis judge(int view, const cv::Matx33d& transform, const SceneContext& sce
   result.log10_false_alarms = result.evidence.log10_chance +
                               std::log10(static_cast<double>(scene.models.views().size())) +
                               log10_pose_count(scene.grid.size(), size, result.tolerance_px);
-  result.coverage = coverage_of(result, scene);
-  result.features_in_area = features_in_area(view, transform, scene);
   return result;
 }
 
@@ -144,8 +142,11 @@ Hypothesis refine(const Hypothesis& start, const SceneContext& scene,
   return best;
 }
 
-void decide(Hypothesis& hypothesis, const VerifyOptions& options) {
+void decide(Hypothesis& hypothesis, const SceneContext& scene, const VerifyOptions& options) {
   if (!hypothesis.rejected.empty()) return;
+  hypothesis.coverage = coverage_of(hypothesis, scene);
+  hypothesis.features_in_area =
+      features_in_area(hypothesis.view, hypothesis.scene_from_view, scene);
   const int inliers = static_cast<int>(hypothesis.evidence.inliers.size());
   if (inliers < options.min_inliers)
     hypothesis.rejected = "only " + std::to_string(inliers) + " features agree on a pose";
@@ -209,14 +210,14 @@ Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
     return best;
   }
   best = refine(best, scene, options);
-  decide(best, options);
+  decide(best, scene, options);
   return best;
 }
 
 void reconsider(Hypothesis& hypothesis, const SceneContext& scene, const std::vector<char>& taken,
                 const VerifyOptions& options) {
   hypothesis = judge(hypothesis.view, hypothesis.scene_from_view, scene, taken, options);
-  decide(hypothesis, options);
+  decide(hypothesis, scene, options);
 }
 
 }  // namespace posevote

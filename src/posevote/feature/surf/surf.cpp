@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
+#include "posevote/core/stopwatch.hpp"
 #include "posevote/feature/picture.hpp"
 #include "posevote/feature/surf/descriptor.hpp"
 #include "posevote/feature/surf/orientation.hpp"
@@ -12,20 +13,6 @@
 
 namespace posevote::surf {
 namespace {
-
-class Stopwatch {
- public:
-  /// Milliseconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
-    start_ = now;
-    return ms;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 int team_size(const SurfOptions& options) {
   if (options.threads > 0) return options.threads;

@@ -1,0 +1,33 @@
+// The server's events as signals that every page can read.
+import { signal } from "@preact/signals";
+import type { Live, Recognition } from "./types";
+
+export const live = signal<Live | null>(null);
+export const result = signal<Recognition | null>(null);
+export const objects_version = signal(0);
+export const connected = signal(true);
+
+const kRetryMs = 1500;
+
+/// Listens until the returned function is called; begins again by itself when the server goes away.
+export function listen(): () => void {
+  let events: EventSource | null = null;
+  let timer = 0;
+  const open = (): void => {
+    events = new EventSource("/api/events");
+    events.onopen = () => (connected.value = true);
+    events.addEventListener("live", (event) => (live.value = JSON.parse(event.data)));
+    events.addEventListener("result", (event) => (result.value = JSON.parse(event.data)));
+    events.addEventListener("objects", (event) => (objects_version.value = JSON.parse(event.data).version));
+    events.onerror = () => {
+      connected.value = false;
+      events!.close();
+      timer = setTimeout(open, kRetryMs) as unknown as number;
+    };
+  };
+  open();
+  return () => {
+    clearTimeout(timer);
+    events?.close();
+  };
+}

@@ -1,0 +1,147 @@
+// The schemas of openapi.yaml that the page reads, under the same names.
+export type Point = [number, number];
+export type Box = [number, number, number, number];
+
+export interface Access {
+  token_needed: boolean;
+  authenticated: boolean;
+  version: string;
+}
+
+export interface Source {
+  source: string;
+  choices: string[];
+}
+
+export interface Live {
+  source: string;
+  state: "waiting" | "running" | "lost";
+  message: string;
+  frame: number;
+  width: number;
+  height: number;
+  source_fps: number;
+  recognized_fps: number;
+  objects: number;
+  version: number;
+}
+
+export interface Detection {
+  object: string;
+  view: string;
+  confidence: number;
+  inliers: number;
+  features_in_area: number;
+  outline: Point[];
+  box: Box;
+  alternatives?: string[];
+}
+
+export interface Recognition {
+  frame?: number;
+  age_ms?: number;
+  width: number;
+  height: number;
+  time_ms: Record<"detect" | "match" | "vote" | "verify" | "total", number>;
+  counts: Record<"features" | "matched" | "clustered" | "verified", number>;
+  detections: Detection[];
+}
+
+export interface ObjectSummary {
+  object: string;
+  views: number;
+  features: number;
+  last_taught_at: string;
+  cover?: string;
+}
+
+export interface ViewSummary {
+  view: string;
+  yaw: number | null;
+  width: number;
+  height: number;
+  features: number;
+  coverage: number;
+  method: string;
+  source: string;
+  taught_at: string;
+}
+
+export interface TaughtObject {
+  object: string;
+  views: ViewSummary[];
+  next_yaw: number | null;
+}
+
+export interface Quality {
+  features: number;
+  coverage: number;
+  self_similarity: number | null;
+  size_px: number;
+  smallest_size_px: number | null;
+  redundancy: number;
+  next_yaw: number | null;
+  advice: string[];
+}
+
+export interface Undo {
+  undo: string;
+  expires_s: number;
+}
+
+export interface Impostor {
+  impostor: string;
+  features: number;
+  source: string;
+  taught_at: string;
+}
+
+export interface TeachSession {
+  session: string;
+  seconds: number;
+  background: boolean;
+  views: ViewSummary[];
+  next_yaw: number | null;
+  enough: boolean;
+}
+
+export interface Proposal {
+  usable: boolean;
+  width: number;
+  height: number;
+  features: number;
+  outline: Point[];
+  quality: Quality | null;
+  adds_little?: boolean;
+  advice: string[];
+}
+
+export interface Saved {
+  object: string;
+  views_added: number;
+  views_known: number;
+  seconds: number;
+}
+
+export interface Transfer {
+  objects: number;
+  views_added: number;
+  views_known: number;
+}
+
+export type SettingValue = boolean | number | string;
+
+export interface Setting {
+  name: string;
+  group: string;
+  level: "basic" | "expert";
+  type: "boolean" | "integer" | "number" | "text";
+  value: SettingValue;
+  default: SettingValue;
+  min?: number;
+  max?: number;
+  choices?: string[];
+  unit: string;
+  help: string;
+  fixed?: boolean;
+}

@@ -1,0 +1,49 @@
+// What the camera sees and what is recognised in it.
+import { useState } from "preact/hooks";
+import { live, result } from "../api/events";
+import { link_to } from "../router";
+import { State } from "../ui/state";
+import { DetectionList } from "./detection_list";
+import { LivePicture, live_size } from "./live_picture";
+import { Overlay } from "./overlay";
+import { Rates } from "./rates";
+import { SourceChoice } from "./source_choice";
+import { use_glide } from "./use_glide";
+import "./live_page.css";
+
+export function LivePage() {
+  const shown = use_glide();
+  const [chosen, set_chosen] = useState<number>();
+  const newest = result.value;
+  const size = newest ?? live_size();
+  return (
+    <div class="live">
+      <h1 class="hidden-text">Live picture</h1>
+      <div class="stack tight">
+        <LivePicture label="Live picture with what is recognised">
+          <Overlay width={size.width} height={size.height} detections={shown} chosen={chosen} />
+        </LivePicture>
+        <Rates />
+      </div>
+      <section class="stack" aria-label="Recognised now">
+        <h2>In the picture now</h2>
+        {live.value?.objects === 0 ? (
+          <State icon="◇" title="Nothing taught yet">
+            <p>Teach the first object: an empty table, the object, a few turns. It takes less than a minute.</p>
+            <a class="button primary" href={link_to("teach")}>
+              Teach an object
+            </a>
+          </State>
+        ) : (
+          <DetectionList
+            detections={newest?.detections ?? []}
+            frame={newest?.frame}
+            on_choose={set_chosen}
+            empty="Nothing that was taught is in the picture."
+          />
+        )}
+        <SourceChoice />
+      </section>
+    </div>
+  );
+}

@@ -1,0 +1,51 @@
+// The camera's picture with what lies over it, and a sentence when there is none.
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import { connected, live } from "../api/events";
+import { Stage } from "../ui/stage";
+import { show_frames } from "./frames";
+
+interface Props {
+  label: string;
+  on_frame?: (frame: number) => void;
+  children?: ComponentChildren;
+}
+
+const kUsualSize = { width: 640, height: 480 };
+
+export function live_size(): { width: number; height: number } {
+  return live.value?.width ? live.value : kUsualSize;
+}
+
+export function LivePicture({ label, on_frame, children }: Props) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const { width, height } = live_size();
+  useEffect(() => {
+    const controller = new AbortController();
+    void show_frames(canvas.current!, (frame) => on_frame?.(frame), controller.signal);
+    return () => controller.abort();
+  }, []);
+  return (
+    <Stage width={width} height={height} label={label}>
+      <canvas ref={canvas} />
+      {children}
+      <Interruption />
+    </Stage>
+  );
+}
+
+function Interruption() {
+  const state = live.value;
+  if (connected.value && state?.state === "running") return null;
+  const [title, text] = !connected.value
+    ? ["The server does not answer", "The page goes on by itself as soon as it is back."]
+    : state?.state === "lost"
+      ? ["Camera lost", state.message || "It is tried again all the time."]
+      : ["Waiting for the first picture", state?.message ?? ""];
+  return (
+    <div class="stage-message" role="status">
+      <h2>{title}</h2>
+      <p>{text}</p>
+    </div>
+  );
+}

@@ -1,0 +1,86 @@
+import { beforeEach, expect, test, vi } from "vitest";
+import type { TeachSession, ViewSummary } from "../api/types";
+import { next_side, Teaching } from "./teaching";
+
+function view(yaw: number | null): ViewSummary {
+  return { view: "1", yaw, width: 4, height: 3, features: 9, coverage: 1, method: "mask", source: "", taught_at: "" };
+}
+
+function session(yaws: (number | null)[], next_yaw: number | null = null): TeachSession {
+  return { session: "s1", seconds: 2, background: false, views: yaws.map(view), next_yaw, enough: false };
+}
+
+let asked: string[];
+let answers: Record<string, unknown>;
+
+beforeEach(() => {
+  asked = [];
+  answers = { "POST /api/teach-sessions": session([]) };
+  vi.stubGlobal("fetch", async (url: string, init: RequestInit) => {
+    const what = `${init.method} ${url}`;
+    asked.push(what);
+    return new Response(JSON.stringify(answers[what] ?? {}), { headers: { "Content-Type": "application/json" } });
+  });
+});
+
+test("the next side is the largest gap, else a turn on from the last", () => {
+  expect(next_side(session([]))).toBe(0);
+  expect(next_side(session([null]))).toBe(0);
+  expect(next_side(session([0]))).toBe(30);
+  expect(next_side(session([330]))).toBe(0);
+  expect(next_side(session([0, 30], 178))).toBe(180);
+});
+
+test("a session begins with the first need and only once", async () => {
+  const teaching = new Teaching();
+  await Promise.all([teaching.look({}), teaching.look({})]);
+  expect(asked.filter((what) => what === "POST /api/teach-sessions")).toHaveLength(1);
+  expect(teaching.begun.value).not.toBeNull();
+});
+
+test("a view that is refused is not accepted", async () => {
+  answers["POST /api/teach-sessions/s1/proposal?yaw=0"] = { usable: false, advice: ["Move the object."] };
+  const teaching = new Teaching();
+  expect(await teaching.take({})).toBe(false);
+  expect(asked).not.toContain("POST /api/teach-sessions/s1/views?yaw=0");
+  expect(teaching.proposal.value!.advice).toEqual(["Move the object."]);
+  expect(teaching.taking.value).toBe(false);
+});
+
+test("a view that is taken moves the ring on", async () => {
+  answers["POST /api/teach-sessions/s1/proposal?yaw=0"] = { usable: true };
+  answers["POST /api/teach-sessions/s1/views?yaw=0"] = session([0], 30);
+  const teaching = new Teaching();
+  expect(await teaching.take({})).toBe(true);
+  expect(teaching.yaw.value).toBe(30);
+  expect(teaching.proposal.value).toBeNull();
+});
+
+test("a cover has no side, before and after", async () => {
+  answers["POST /api/teach-sessions/s1/proposal?whole=true"] = { usable: true };
+  answers["POST /api/teach-sessions/s1/views"] = session([null]);
+  const teaching = new Teaching();
+  teaching.yaw.value = null;
+  expect(await teaching.take({ whole: true })).toBe(true);
+  expect(teaching.yaw.value).toBeNull();
+});
+
+test("looks do not overtake each other", async () => {
+  const teaching = new Teaching();
+  const both = [teaching.look({ roi: "first" }), teaching.look({ roi: "second" })];
+  expect(asked).toHaveLength(0);
+  await Promise.all(both);
+  expect(asked.slice(1).map((what) => what.split("roi=")[1])).toEqual(["first", "second"]);
+});
+
+test("a look that fails says why, and the next one works", async () => {
+  const teaching = new Teaching();
+  await teaching.look({});
+  const working = fetch;
+  vi.stubGlobal("fetch", async () => new Response('{"error": {"message": "No camera."}}', { status: 503 }));
+  await expect(teaching.look({})).rejects.toThrow("No camera.");
+  expect(teaching.trouble.value).toBe("No camera.");
+  vi.stubGlobal("fetch", working);
+  await teaching.look({});
+  expect(teaching.trouble.value).toBe("");
+});

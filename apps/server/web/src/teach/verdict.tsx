@@ -1,0 +1,28 @@
+// Is what is seen now good enough? One sentence, in a place that keeps its height.
+import type { Proposal } from "../api/types";
+import { count } from "../ui/numbers";
+import type { Teaching } from "./teaching";
+import "./verdict.css";
+
+interface Props {
+  teaching: Teaching;
+  waiting: string;
+}
+
+export function Verdict({ teaching, waiting }: Props) {
+  const trouble = teaching.trouble.value;
+  const [kind, text] = trouble ? ["bad", trouble] : judge(teaching.proposal.value, waiting);
+  return (
+    <div class={`note verdict ${kind}`} role="status">
+      {text}
+    </div>
+  );
+}
+
+function judge(proposal: Proposal | null, waiting: string): [string, string] {
+  if (!proposal) return ["", waiting];
+  if (!proposal.usable) return ["bad", proposal.advice[0] ?? "The object was not found."];
+  if (proposal.adds_little) return ["warn", "This side is known already: turn the object on. The view would add little."];
+  const features = count(proposal.features, "feature");
+  return ["good", `Good: ${features} found. ${proposal.advice[0] ?? ""}`];
+}

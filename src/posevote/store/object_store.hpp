@@ -14,6 +14,12 @@
 
 namespace posevote {
 
+enum class Access {
+  create,    ///< read and write, made when it is not there
+  existing,  ///< read and write; read-only where writing is not permitted
+  read_only,
+};
+
 struct ObjectSummary {
   std::string name;
   int views = 0;

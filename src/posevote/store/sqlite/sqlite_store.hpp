@@ -8,12 +8,6 @@
 
 namespace posevote {
 
-enum class Access {
-  create,    ///< read and write, made when it is not there
-  existing,  ///< read and write; read-only where writing is not permitted
-  read_only,
-};
-
 struct SqliteOptions {
   Access access = Access::create;
   int busy_timeout_ms = 10000;  ///< how long to wait for other writers

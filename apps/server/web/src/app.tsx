@@ -12,6 +12,7 @@ import { SettingsPage } from "./settings/settings_page";
 import { TeachPage } from "./teach/teach_page";
 import { TryPage } from "./try/try_page";
 import { State, Waiting } from "./ui/state";
+import { while_shown } from "./ui/while_shown";
 import { Toasts, say_error } from "./ui/toast";
 import "./app.css";
 
@@ -22,7 +23,7 @@ export function App() {
   useEffect(() => {
     get_access().then((answer) => (access.value = answer), say_error);
   }, []);
-  useEffect(() => (known?.authenticated ? listen() : undefined), [known?.authenticated]);
+  useEffect(() => (known?.authenticated ? while_shown(listen) : undefined), [known?.authenticated]);
   if (!known)
     return (
       <>
@@ -48,7 +49,7 @@ export function App() {
             </a>
           ))}
         </nav>
-        <a class="button primary" href={link_to("teach")}>
+        <a class="button primary" href={link_to("teach")} hidden={route.value.page === "teach"}>
           New object
         </a>
       </header>

@@ -32,6 +32,8 @@ export const merge_object = (name: string, into: string) =>
 export const delete_object = (name: string) => ask<t.Undo>("DELETE", ["objects", name]);
 export const delete_view = (name: string, view: string) => ask<t.Undo>("DELETE", ["objects", name, "views", view]);
 export const undo = (id: string) => ask<t.TaughtObject>("POST", ["undo", id]);
+export const get_view = (name: string, view: string, signal: AbortSignal) =>
+  ask<t.View>("GET", ["objects", name, "views", view], { signal });
 export const view_quality = (name: string, view: string, signal: AbortSignal) =>
   ask<t.Quality>("GET", ["objects", name, "views", view, "quality"], { signal });
 export const view_picture = (name: string, view: string, width?: number) =>

@@ -67,6 +67,10 @@ export interface ViewSummary {
   taught_at: string;
 }
 
+export interface View extends ViewSummary {
+  outline: Point[];
+}
+
 export interface TaughtObject {
   object: string;
   views: ViewSummary[];

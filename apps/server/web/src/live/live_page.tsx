@@ -8,11 +8,13 @@ import { LivePicture, live_size } from "./live_picture";
 import { Overlay } from "./overlay";
 import { Rates } from "./rates";
 import { SourceChoice } from "./source_choice";
+import { use_current } from "./use_current";
 import { use_glide } from "./use_glide";
 import "./live_page.css";
 
 export function LivePage() {
   const shown = use_glide();
+  const { running, current, on_frame } = use_current();
   const [chosen, set_chosen] = useState<number>();
   const newest = result.value;
   const size = newest ?? live_size();
@@ -20,8 +22,8 @@ export function LivePage() {
     <div class="live">
       <h1 class="hidden-text">Live picture</h1>
       <div class="stack tight">
-        <LivePicture label="Live picture with what is recognised">
-          <Overlay width={size.width} height={size.height} detections={shown} chosen={chosen} />
+        <LivePicture label="Live picture with what is recognised" on_frame={on_frame}>
+          <Overlay width={size.width} height={size.height} detections={current ? shown : []} chosen={chosen} />
         </LivePicture>
         <Rates />
       </div>
@@ -36,10 +38,10 @@ export function LivePage() {
           </State>
         ) : (
           <DetectionList
-            detections={newest?.detections ?? []}
+            detections={(running && newest?.detections) || []}
             frame={newest?.frame}
             on_choose={set_chosen}
-            empty="Nothing that was taught is in the picture."
+            empty={running ? "Nothing that was taught is in the picture." : "There is no picture now."}
           />
         )}
         <SourceChoice />

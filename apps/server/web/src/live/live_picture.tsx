@@ -3,11 +3,12 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { connected, live } from "../api/events";
 import { Stage } from "../ui/stage";
-import { show_frames } from "./frames";
+import { while_shown } from "../ui/while_shown";
+import { show_frames, type OnFrame } from "./frames";
 
 interface Props {
   label: string;
-  on_frame?: (frame: number) => void;
+  on_frame?: OnFrame;
   children?: ComponentChildren;
 }
 
@@ -17,14 +18,18 @@ export function live_size(): { width: number; height: number } {
   return live.value?.width ? live.value : kUsualSize;
 }
 
-export function LivePicture({ label, on_frame, children }: Props) {
+export function LivePicture({ label, on_frame = () => undefined, children }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const { width, height } = live_size();
-  useEffect(() => {
-    const controller = new AbortController();
-    void show_frames(canvas.current!, (frame) => on_frame?.(frame), controller.signal);
-    return () => controller.abort();
-  }, []);
+  useEffect(
+    () =>
+      while_shown(() => {
+        const controller = new AbortController();
+        void show_frames(canvas.current!, on_frame, controller.signal);
+        return () => controller.abort();
+      }),
+    [],
+  );
   return (
     <Stage width={width} height={height} label={label}>
       <canvas ref={canvas} />

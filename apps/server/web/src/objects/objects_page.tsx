@@ -26,6 +26,7 @@ export function ObjectsPage() {
           </button>
           <input
             ref={chooser}
+            id="import-file"
             type="file"
             hidden
             onChange={(event) => {

@@ -1,8 +1,9 @@
 // One view in full size with its quality card; its mask can be corrected.
 import { useState } from "preact/hooks";
-import { replace_view_mask, view_mask, view_picture, view_quality } from "../api/calls";
+import { get_view, replace_view_mask, view_mask, view_picture, view_quality } from "../api/calls";
 import type { ViewSummary } from "../api/types";
 import { MaskEditor } from "../teach/mask_editor";
+import { SilhouetteOverlay } from "../teach/silhouette_overlay";
 import { Dialog } from "../ui/dialog";
 import { use_loaded } from "../ui/loaded";
 import { degrees } from "../ui/numbers";
@@ -19,6 +20,7 @@ interface Props {
 
 export function ViewDialog({ object, view, on_delete, on_close }: Props) {
   const { data, error } = use_loaded((signal) => view_quality(object, view.view, signal), []);
+  const { data: taught } = use_loaded((signal) => get_view(object, view.view, signal), []);
   const [correcting, set_correcting] = useState(false);
   const picture = view_picture(object, view.view);
   const mask = view_mask(object, view.view);
@@ -38,6 +40,7 @@ export function ViewDialog({ object, view, on_delete, on_close }: Props) {
       <div class="view-dialog">
         <Stage width={view.width} height={view.height} label="The taught picture">
           <img src={picture} alt={`${object} as taught`} />
+          <SilhouetteOverlay of={taught} />
         </Stage>
         <div class="stack">
           <QualityCard quality={data} problem={error?.message} />

@@ -27,8 +27,8 @@ export function Dial({ setting, value, on_change }: Props) {
         onInput={(event) => on_change(to_value(event.currentTarget.valueAsNumber))}
       />
       <div class="dial-scale small muted">
-        <span>Careful: hardly a false alarm, some objects missed</span>
-        <span class="number">Eager</span>
+        <span>Careful: misses some objects</span>
+        <span class="number">Eager: sees some too many</span>
       </div>
       <output htmlFor={id}>
         {value} in 1000. {in_words(value)}

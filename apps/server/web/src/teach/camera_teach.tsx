@@ -3,7 +3,7 @@ import { live } from "../api/events";
 import { LivePicture } from "../live/live_picture";
 import { use_device_camera } from "../ui/device_camera";
 import { Stage } from "../ui/stage";
-import { ProposalOverlay } from "./proposal_overlay";
+import { SilhouetteOverlay } from "./silhouette_overlay";
 import { Turntable } from "./turntable";
 import type { Teaching } from "./teaching";
 
@@ -11,7 +11,7 @@ export function CameraTeach({ teaching }: { teaching: Teaching }) {
   return (
     <div class="camera-teach">
       <LivePicture label="Live picture with what would be learned">
-        <ProposalOverlay proposal={teaching.proposal.value} />
+        <SilhouetteOverlay of={teaching.proposal.value} />
       </LivePicture>
       <Turntable teaching={teaching} ready={live.value?.state === "running"} />
     </div>
@@ -24,7 +24,7 @@ export function DeviceTeach({ teaching }: { teaching: Teaching }) {
     <div class="camera-teach">
       <Stage {...camera.size} label="This device's camera">
         <video ref={camera.video} muted playsInline />
-        <ProposalOverlay proposal={teaching.proposal.value} />
+        <SilhouetteOverlay of={teaching.proposal.value} />
         {!camera.ready && (
           <div class="stage-message" role="status">
             <h2>{camera.problem ? "No camera" : "Asking for the camera"}</h2>

@@ -8,7 +8,7 @@ import type { Box } from "./box";
 import { BoxEditor } from "./box_editor";
 import { MaskEditor } from "./mask_editor";
 import { is_background_name, read_pictures, yaw_of_name, type Waiting } from "./pictures";
-import { ProposalOverlay } from "./proposal_overlay";
+import { SilhouetteOverlay } from "./silhouette_overlay";
 import type { Teaching } from "./teaching";
 import { Verdict } from "./verdict";
 import { WayChoice, type Way } from "./way_choice";
@@ -75,7 +75,7 @@ export function PictureTeach({ teaching }: { teaching: Teaching }) {
       ) : (
         <Stage width={now.width} height={now.height} label={now.file.name}>
           <img src={now.url} alt={`Picture ${now.file.name}`} />
-          <ProposalOverlay proposal={proposal} />
+          <SilhouetteOverlay of={proposal} />
         </Stage>
       )}
       <div class="stack">

@@ -14,7 +14,7 @@ import { TakenViews } from "./taken_views";
 import { Teaching } from "./teaching";
 import "./teach_page.css";
 
-const kWays = { camera: "Robot's camera", device: "This device's camera", pictures: "Pictures" };
+const kWays = { camera: "Robot camera", device: "This device", pictures: "Pictures" };
 type Way = keyof typeof kWays;
 
 export function TeachPage({ name }: { name: string }) {

@@ -36,20 +36,22 @@ export function Turntable({ teaching, ready, grab }: Props) {
   const take = (): Promise<boolean> => attempt(async () => teaching.take({ picture: await grab?.() }));
   const views = session?.views ?? [];
   return (
-    <div class="stack">
+    <div class="stack turntable">
       <Instruction step={!background ? 0 : views.length === 0 ? 1 : session!.enough ? 3 : 2} />
-      {background && <Verdict teaching={teaching} waiting="Looking for the object …" />}
-      <button
-        class="button primary"
-        disabled={!ready || busy || (background && !proposal?.usable)}
-        onClick={() => void (background ? take() : take_background())}
-      >
-        {background ? "Take this view" : "The table is empty"}
-      </button>
+      <div class="stack tight turntable-act">
+        {background && <Verdict teaching={teaching} waiting="Looking for the object …" />}
+        <button
+          class="button primary"
+          disabled={!ready || busy || (background && !proposal?.usable)}
+          onClick={() => void (background ? take() : take_background())}
+        >
+          {background ? "Take this view" : "The table is empty"}
+        </button>
+      </div>
       {background && (
         <div class="row">
           <button class="button" disabled={!proposal || busy} onClick={() => void correct()}>
-            Correct the mask
+            Correct mask
           </button>
           <button class="button plain" disabled={busy} onClick={() => void take_background()}>
             New background

@@ -1,0 +1,99 @@
+// For everybody: small and large screens, light and dark, keyboard and screen reader.
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import type { Page } from "playwright-core";
+import { Studio } from "./studio";
+
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const kPages = ["#/live", "#/objects", "#/objects/mug", "#/teach", "#/try", "#/settings"];
+const kSizes = [
+  { name: "phone", viewport: { width: 360, height: 740 }, isMobile: true, colorScheme: "dark" as const },
+  { name: "phone-light", viewport: { width: 360, height: 740 }, isMobile: true, colorScheme: "light" as const },
+  { name: "wide", viewport: { width: 1920, height: 1080 }, colorScheme: "light" as const },
+  { name: "wide-dark", viewport: { width: 1920, height: 1080 }, colorScheme: "dark" as const },
+];
+
+let studio: Studio;
+
+beforeAll(async () => {
+  studio = await Studio.start();
+  await studio.teach("mug", ["y000", "y030", "y300", "y330"]);
+  await studio.teach("tea-cherry", ["y000", "y036", "y324"]);
+  await studio.teach("poster", ["cover"]);
+  await studio.show("test/reading.jpg");
+});
+afterAll(() => studio.stop());
+
+async function settle(page: Page, hash: string): Promise<void> {
+  await page.goto(`${studio.address}/${hash}`);
+  await page.locator("main h1").first().waitFor({ state: "attached" });
+  if (hash === "#/live") await page.locator(".found-name").first().waitFor();
+  if (hash.startsWith("#/objects")) await page.locator(".object img").first().waitFor();
+}
+
+for (const { name, ...options } of kSizes)
+  test(`${name}: nothing overflows, nothing scrolls inside, axe has no complaint`, async () => {
+    const page = await studio.open("#/live", { ...options, bypassCSP: true });
+    for (const hash of kPages) {
+      await settle(page, hash);
+      await studio.shoot(page, `${name}-${hash.slice(2).replace("/", "-")}`);
+      expect(await page.evaluate(overflowing), hash).toEqual([]);
+      await page.evaluate(axe);
+      expect(await page.evaluate(axe_complaints), hash).toEqual([]);
+    }
+  });
+
+function overflowing(): string[] {
+  const found = document.documentElement.scrollWidth > innerWidth ? ["page"] : [];
+  for (const element of document.querySelectorAll("main *")) {
+    const style = getComputedStyle(element);
+    if (/auto|scroll/.test(style.overflowX + style.overflowY)) found.push(element.outerHTML.slice(0, 80));
+  }
+  return found;
+}
+
+async function axe_complaints(): Promise<string[]> {
+  const { axe } = globalThis as unknown as {
+    axe: { run: () => Promise<{ violations: { id: string; nodes: { html: string; failureSummary: string }[] }[] }> };
+  };
+  const { violations } = await axe.run();
+  return violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html + node.failureSummary).join("; ")}`);
+}
+
+test("the keyboard alone gets from the live picture into a new object", async () => {
+  await studio.show("train/mug/background.jpg");
+  const page = await studio.open("#/live");
+  await page.getByRole("link", { name: "New object" }).waitFor();
+  const focused = (): Promise<string> => page.evaluate(() => document.activeElement?.textContent?.trim() ?? "");
+  for (let i = 0; i < 12 && (await focused()) !== "New object"; ++i) await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
+  await page.getByRole("button", { name: "The table is empty" }).waitFor();
+  for (let i = 0; i < 12 && (await focused()) !== "The table is empty"; ++i) await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
+  await page.locator(".verdict").waitFor();
+  await studio.show("train/mug/y060.jpg");
+  await page.locator(".verdict.good").waitFor();
+  expect(await focused()).toBe("Take this view");
+  await page.keyboard.press("Enter");
+  await page.getByText("1 view taken").waitFor();
+  await page.locator(".side.next").focus();
+  await page.keyboard.press("ArrowRight");
+  expect(await page.locator(".side:focus").getAttribute("aria-label")).toContain("missing");
+  expect(await page.locator(".side.next").getAttribute("aria-checked")).toBe("true");
+});
+
+test("nothing jumps while the live picture comes up", async () => {
+  await studio.show("test/reading.jpg");
+  const page = await studio.open("#/live");
+  await page.addInitScript(() => {
+    const shifts: number[] = ((globalThis as Record<string, unknown>).shifts = []) as number[];
+    new PerformanceObserver((list) => {
+      for (const entry of list.getEntries()) shifts.push((entry as unknown as { value: number }).value);
+    }).observe({ type: "layout-shift", buffered: true });
+  });
+  await page.reload();
+  await page.locator(".found-name").first().waitFor();
+  const shifts = await page.evaluate(() => (globalThis as unknown as { shifts: number[] }).shifts);
+  expect(shifts.reduce((sum, value) => sum + value, 0)).toBeLessThan(0.05);
+});

@@ -1,0 +1,111 @@
+import { afterAll, beforeAll, expect, test } from "vitest";
+import type { Page } from "playwright-core";
+import { Studio } from "./studio";
+
+let studio: Studio;
+let page: Page;
+
+beforeAll(async () => {
+  studio = await Studio.start();
+  await studio.teach("mug", ["y000", "y030", "y060"]);
+  await studio.teach("soup", ["y000"]);
+  await studio.teach("poster", ["cover"]);
+  page = await studio.open("#/objects");
+});
+afterAll(() => studio.stop());
+
+async function names(): Promise<string[]> {
+  const { objects } = (await (await studio.ask("GET", "objects")).json()) as { objects: { object: string }[] };
+  return objects.map(({ object }) => object);
+}
+
+test("all objects are listed with their pictures", async () => {
+  await page.locator("a.object").nth(2).waitFor();
+  expect(await page.locator("a.object b").allTextContents()).toEqual(["mug", "poster", "soup"]);
+  await page.waitForLoadState("networkidle").catch(() => undefined);
+  await studio.shoot(page, "objects");
+});
+
+test("an object is renamed; a name that is taken is refused in the dialog", async () => {
+  await page.getByRole("link", { name: /soup/ }).click();
+  await page.getByRole("button", { name: "Rename" }).click();
+  await page.getByLabel("New name").fill("mug");
+  await page.getByRole("dialog").getByRole("button", { name: "Rename" }).click();
+  await page.getByRole("alert").filter({ hasText: "mug" }).waitFor();
+  await page.getByLabel("New name").fill("tomato soup / 400 ml");
+  await page.getByRole("dialog").getByRole("button", { name: "Rename" }).click();
+  await page.getByRole("heading", { name: "tomato soup / 400 ml" }).waitFor();
+  expect(await names()).toEqual(["mug", "poster", "tomato soup / 400 ml"]);
+});
+
+test("an object is deleted and comes back", async () => {
+  await page.getByRole("button", { name: "Delete" }).click();
+  await page.getByText("is deleted").waitFor();
+  expect(await names()).toEqual(["mug", "poster"]);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await page.getByRole("heading", { name: "tomato soup / 400 ml" }).waitFor();
+  expect(await names()).toHaveLength(3);
+});
+
+test("a view has a quality card, and can be deleted with a way back", async () => {
+  await page.goto(`${studio.address}/#/objects/mug`);
+  await page.locator(".view", { hasText: "30°" }).click();
+  await expect.poll(() => page.locator(".quality dd").first().textContent(), { timeout: 20_000 }).toMatch(/^\d+$/);
+  await studio.shoot(page, "view");
+  await page.getByRole("button", { name: "Delete view" }).click();
+  await expect.poll(() => page.locator(".view").count()).toBe(2);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await expect.poll(() => page.locator(".view").count()).toBe(3);
+});
+
+test("a taught mask is corrected", async () => {
+  const before = await masks();
+  await page.locator(".view", { hasText: "30°" }).click();
+  await page.getByRole("button", { name: "Correct the mask" }).click();
+  const canvas = (await page.locator(".mask-canvas").boundingBox())!;
+  await page.getByLabel("Add to the object").check();
+  await page.mouse.move(canvas.x + 0.5 * canvas.width, canvas.y + 0.4 * canvas.height);
+  await page.mouse.down();
+  await page.mouse.move(canvas.x + 0.5 * canvas.width, canvas.y + 0.2 * canvas.height, { steps: 3 });
+  await page.mouse.up();
+  await page.getByRole("button", { name: "Use this mask" }).click();
+  await page.getByRole("dialog").waitFor({ state: "detached" });
+  await expect.poll(masks).not.toEqual(before);
+});
+
+async function masks(): Promise<number[]> {
+  const { views } = (await (await studio.ask("GET", "objects/mug")).json()) as { views: { coverage: number }[] };
+  return views.map(({ coverage }) => coverage).sort();
+}
+
+test("two objects become one, and two again", async () => {
+  await page.goto(`${studio.address}/#/objects/poster`);
+  await page.getByRole("button", { name: "Merge" }).click();
+  await page.getByLabel("Into").selectOption("mug");
+  await page.getByRole("dialog").getByRole("button", { name: "Merge" }).click();
+  await page.getByRole("heading", { name: "mug" }).waitFor();
+  await expect.poll(() => page.locator(".view").count()).toBe(4);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await page.getByRole("heading", { name: "poster" }).waitFor();
+  expect(await names()).toHaveLength(3);
+});
+
+test("what was exported is imported again", async () => {
+  await page.goto(`${studio.address}/#/objects`);
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("link", { name: "Export all" }).click(),
+  ]);
+  const file = await download.path();
+  await studio.ask("DELETE", "objects/mug");
+  await expect.poll(() => page.locator("a.object").count()).toBe(2);
+  await page.locator("#import-file").setInputFiles(file);
+  await page.getByRole("dialog").getByRole("button", { name: "Import" }).click();
+  await page.getByText(/Imported 3 objects/).waitFor();
+  await expect.poll(() => page.locator("a.object").count()).toBe(3);
+});
+
+test("an object that is not there is a designed page", async () => {
+  await page.goto(`${studio.address}/#/objects/nothing`);
+  await page.getByRole("heading", { name: "There is no “nothing”" }).waitFor();
+});

@@ -1,0 +1,84 @@
+import { mkdtempSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { expect, test } from "vitest";
+import { demo, Studio } from "./studio";
+
+const kToken = "a token of enough letters";
+
+test("settings are changed, are in force, and go back to their defaults", async () => {
+  const studio = await Studio.start();
+  const page = await studio.open("#/settings");
+  const dial = page.getByRole("slider");
+  await dial.focus();
+  await dial.press("ArrowLeft");
+  await page.getByText("1 change not in force yet").waitFor();
+  await studio.shoot(page, "settings");
+  await page.getByRole("button", { name: "Apply" }).click();
+  await page.getByText("The settings are in force").waitFor();
+  const { settings } = (await (await studio.ask("GET", "settings")).json()) as { settings: { value: number }[] };
+  expect(settings[0]!.value).toBeCloseTo(0.32);
+  await page.reload();
+  await page.getByText("0.32 in 1000").waitFor();
+  await studio.stop();
+});
+
+test("without the token nobody enters; with it everybody", async () => {
+  const folder = mkdtempSync(join(tmpdir(), "posevote-token-"));
+  writeFileSync(join(folder, "token"), kToken);
+  const studio = await Studio.start({ arguments: ["--camera", "client", "--token-file", join(folder, "token")] });
+  const page = await studio.open("#/objects");
+  await page.getByLabel("Token").fill("wrong");
+  await page.getByRole("button", { name: "Enter" }).click();
+  await page.getByRole("alert").filter({ hasText: /./ }).waitFor();
+  await studio.shoot(page, "login");
+  await page.getByLabel("Token").fill(kToken);
+  await page.getByRole("button", { name: "Enter" }).click();
+  await page.getByRole("heading", { name: "Objects" }).waitFor();
+  await page.goto(`${studio.address}/#/settings`);
+  await page.getByRole("button", { name: "Log out" }).click();
+  await page.getByLabel("Token").waitFor();
+  await studio.stop();
+});
+
+test("a folder of pictures is a camera, and its objects are found", async () => {
+  const studio = await Studio.start({ arguments: ["--camera", join(demo, "test"), "--fps", "1"] });
+  await studio.teach("mug", ["y000", "y030", "y330", "y300"]);
+  const page = await studio.open("#/live");
+  await page.locator(".detection", { hasText: "mug" }).waitFor();
+  await page.getByLabel("Source of the picture").selectOption("client");
+  await page.getByText("Waiting for the first picture").waitFor();
+  await studio.stop();
+});
+
+test("a server that went away is said, and the picture keeps its place", async () => {
+  const studio = await Studio.start({ arguments: ["--camera", join(demo, "test")] });
+  const page = await studio.open("#/live");
+  await expect.poll(() => page.locator(".stage-message").count()).toBe(0);
+  const before = await page.locator(".stage").boundingBox();
+  studio.kill_server();
+  await page.getByText("The server does not answer").waitFor();
+  expect(await page.locator(".stage").boundingBox()).toEqual(before);
+  await studio.shoot(page, "server-gone");
+  await studio.stop();
+});
+
+test("this device's camera teaches too", async () => {
+  const studio = await Studio.start({
+    browser_flags: ["--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream"],
+  });
+  const page = await studio.open("#/teach");
+  await page.getByText("This device", { exact: true }).click();
+  await page.getByRole("button", { name: "The table is empty" }).click();
+  await page.locator(".verdict.good, .verdict.warn, .verdict.bad").waitFor();
+  await studio.shoot(page, "device");
+  await studio.stop();
+});
+
+test("a browser that allows no camera is told what else there is", async () => {
+  const studio = await Studio.start();
+  const page = await studio.open("#/teach");
+  await page.getByText("This device", { exact: true }).click();
+  await page.getByRole("heading", { name: "No camera" }).waitFor();
+  await studio.stop();
+});

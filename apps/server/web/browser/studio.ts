@@ -1,0 +1,154 @@
+// The real server with a browser before it. POSEVOTE_PROGRAM and POSEVOTE_DEMO name the executable
+// and the demo set; POSEVOTE_SHOTS, if set, the folder for screenshots.
+import { spawn, type ChildProcess } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+
+export const demo = needed("POSEVOTE_DEMO");
+const shots = process.env.POSEVOTE_SHOTS;
+
+const kFlags = [
+  "--no-sandbox",
+  "--disable-gpu",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+];
+
+function needed(name: string): string {
+  const value = process.env[name];
+  if (!value) throw new Error(`${name} is not set`);
+  return value;
+}
+
+export const picture = (path: string): Uint8Array<ArrayBuffer> => new Uint8Array(readFileSync(join(demo, path)));
+
+export interface Options {
+  arguments?: string[];
+  browser_flags?: string[];
+}
+
+export class Studio {
+  private constructor(
+    readonly folder: string,
+    readonly address: string,
+    private server: ChildProcess,
+    private browser: Browser,
+    private said: string[],
+  ) {}
+
+  static async start(options: Options = {}): Promise<Studio> {
+    const folder = mkdtempSync(join(tmpdir(), "posevote-page-"));
+    const port = await free_port();
+    const said: string[] = [];
+    const server = serve(folder, port, options.arguments ?? ["--camera", "client"], said);
+    const address = `http://127.0.0.1:${port}`;
+    await answered(address, server, said);
+    const browser = await chromium.launch({
+      executablePath: process.env.POSEVOTE_CHROMIUM ?? "/usr/bin/chromium",
+      args: [...kFlags, ...(options.browser_flags ?? [])],
+    });
+    return new Studio(folder, address, server, browser, said);
+  }
+
+  /// A page at `hash`; whatever it complains of makes the test fail at `stop`.
+  async open(hash: string, options: BrowserContextOptions = {}): Promise<Page> {
+    const context = await this.browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+    const page = await context.newPage();
+    page.setDefaultTimeout(20_000);
+    page.on("pageerror", (error) => this.complaints.push(error.message));
+    page.on("console", (message) => {
+      if (/Content.Security.Policy|Refused to/.test(message.text())) this.complaints.push(message.text());
+    });
+    page.on("request", (request) => {
+      if (!request.url().startsWith(this.address) && !/^(blob|data):/.test(request.url()))
+        this.complaints.push(`loaded from elsewhere: ${request.url()}`);
+    });
+    await page.goto(`${this.address}/${hash}`);
+    return page;
+  }
+
+  readonly complaints: string[] = [];
+
+  /// Shows a picture of the demo set to the server's camera.
+  async show(path: string): Promise<void> {
+    await this.ask("POST", "live/frame", picture(path));
+  }
+
+  async ask(method: string, path: string, body?: Uint8Array<ArrayBuffer> | string): Promise<Response> {
+    const response = await fetch(`${this.address}/api/${path}`, {
+      method,
+      body,
+      headers: typeof body === "string" ? { "Content-Type": "application/json" } : {},
+    });
+    if (!response.ok) throw new Error(`${method} ${path}: ${response.status} ${await response.text()}`);
+    return response;
+  }
+
+  /// Teaches without the page: views of a folder of the demo set.
+  async teach(name: string, views: string[]): Promise<void> {
+    for (const view of views) {
+      const form = new FormData();
+      form.set("picture", new Blob([picture(`train/${name}/${view}.jpg`)]), "view.jpg");
+      if (view !== "cover") form.set("background", new Blob([picture(`train/${name}/background.jpg`)]), "empty.jpg");
+      const yaw = view.startsWith("y") ? `?yaw=${Number(view.slice(1))}` : "";
+      const response = await fetch(`${this.address}/api/objects/${name}/views${yaw}`, { method: "POST", body: form });
+      if (!response.ok) throw new Error(`${name} ${view}: ${await response.text()}`);
+    }
+  }
+
+  async shoot(page: Page, name: string): Promise<void> {
+    if (!shots) return;
+    mkdirSync(shots, { recursive: true });
+    await page.screenshot({ path: join(shots, `${name}.png`) });
+  }
+
+  kill_server(): void {
+    this.server.kill("SIGKILL");
+  }
+
+  async stop(): Promise<void> {
+    await this.browser.close();
+    const ended = new Promise((done) => this.server.once("exit", done));
+    if (this.server.exitCode === null && this.server.signalCode === null) {
+      this.server.kill("SIGTERM");
+      await ended;
+    }
+    rmSync(this.folder, { recursive: true });
+    if (this.complaints.length) throw new Error(`${this.complaints.join("\n")}\nThe server said:\n${this.said.join("")}`);
+  }
+}
+
+function serve(folder: string, port: number, more: string[], said: string[]): ChildProcess {
+  const server = spawn(
+    needed("POSEVOTE_PROGRAM"),
+    ["serve", "--db", join(folder, "objects.db"), "--listen", `127.0.0.1:${port}`, ...more],
+    { stdio: ["ignore", "pipe", "pipe"] },
+  );
+  server.stdout!.on("data", (text) => said.push(String(text)));
+  server.stderr!.on("data", (text) => said.push(String(text)));
+  return server;
+}
+
+async function answered(address: string, server: ChildProcess, said: string[]): Promise<void> {
+  for (;;) {
+    if (server.exitCode !== null) throw new Error(`The server ended:\n${said.join("")}`);
+    const response = await fetch(`${address}/api/health`).catch(() => null);
+    if (response?.ok) return;
+    await new Promise((done) => setTimeout(done, 50));
+  }
+}
+
+function free_port(): Promise<number> {
+  return new Promise((done) => {
+    const probe = createServer().listen(0, "127.0.0.1", () => {
+      const { port } = probe.address() as { port: number };
+      probe.close(() => done(port));
+    });
+  });
+}

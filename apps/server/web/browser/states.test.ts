@@ -63,7 +63,7 @@ test("a server that went away is said, and the picture keeps its place", async (
   await studio.stop();
 });
 
-test("this device's camera teaches too", async () => {
+test("this device's camera teaches, and serves as the live source", async () => {
   const studio = await Studio.start({
     browser_flags: ["--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream"],
   });
@@ -72,6 +72,9 @@ test("this device's camera teaches too", async () => {
   await page.getByRole("button", { name: "The table is empty" }).click();
   await page.locator(".verdict.good, .verdict.warn, .verdict.bad").waitFor();
   await studio.shoot(page, "device");
+  await page.goto(`${studio.address}/#/live`);
+  await page.getByRole("button", { name: "Send this device's camera" }).click();
+  await expect.poll(() => page.locator(".stage-message").count(), { timeout: 20_000 }).toBe(0);
   await studio.stop();
 });
 

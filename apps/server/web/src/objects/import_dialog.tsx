@@ -3,7 +3,8 @@ import { useState } from "preact/hooks";
 import { import_objects } from "../api/calls";
 import { Dialog } from "../ui/dialog";
 import { count } from "../ui/numbers";
-import { attempt, say } from "../ui/toast";
+import { use_problem } from "../ui/problem";
+import { say } from "../ui/toast";
 
 const kChoices = [
   ["merge", "Add the views to the object that is there"],
@@ -13,16 +14,12 @@ const kChoices = [
 
 export function ImportDialog({ file, on_close }: { file: File; on_close: () => void }) {
   const [existing, set_existing] = useState<string>("merge");
-  const [importing, set_importing] = useState(false);
+  const problem = use_problem();
   async function run(): Promise<void> {
-    set_importing(true);
-    const done = await attempt(async () => {
-      const { objects, views_added, views_known } = await import_objects(file, existing);
-      const known = views_known ? `, ${views_known} known already` : "";
-      say(`Imported ${count(objects, "object")}: ${count(views_added, "new view")}${known}.`);
-    });
-    set_importing(false);
-    if (done) on_close();
+    const { objects, views_added, views_known } = await import_objects(file, existing);
+    const known = views_known ? `, ${views_known} known already` : "";
+    say(`Imported ${count(objects, "object")}: ${count(views_added, "new view")}${known}.`);
+    on_close();
   }
   return (
     <Dialog title={`Import ${file.name}`} on_close={on_close}>
@@ -35,8 +32,9 @@ export function ImportDialog({ file, on_close }: { file: File; on_close: () => v
           </label>
         ))}
       </fieldset>
-      <button class="button primary" disabled={importing} onClick={() => void run()}>
-        {importing ? "Importing …" : "Import"}
+      {problem.shown}
+      <button class="button primary" disabled={problem.busy} onClick={() => void problem.run(run)}>
+        {problem.busy ? "Importing …" : "Import"}
       </button>
     </Dialog>
   );

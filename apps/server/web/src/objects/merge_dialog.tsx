@@ -4,22 +4,29 @@ import { list_objects, merge_object } from "../api/calls";
 import { go_to } from "../router";
 import { Dialog } from "../ui/dialog";
 import { use_loaded } from "../ui/loaded";
+import { use_problem } from "../ui/problem";
 import { do_with_undo } from "./undo";
 
 export function MergeDialog({ name, on_close }: { name: string; on_close: () => void }) {
   const { data } = use_loaded(list_objects, []);
   const others = (data?.objects ?? []).map(({ object }) => object).filter((object) => object !== name);
   const [into, set_into] = useState("");
-  async function merge(event: Event): Promise<void> {
-    event.preventDefault();
+  const problem = use_problem();
+  async function merge(): Promise<void> {
     const back = (): void => go_to("objects", name);
-    if (!(await do_with_undo(() => merge_object(name, into), `“${name}” is now part of “${into}”.`, back))) return;
+    await do_with_undo(merge_object(name, into), `“${name}” is now part of “${into}”.`, back);
     on_close();
     go_to("objects", into);
   }
   return (
     <Dialog title={`Merge “${name}”`} on_close={on_close}>
-      <form class="stack" onSubmit={(event) => void merge(event)}>
+      <form
+        class="stack"
+        onSubmit={(event) => {
+          event.preventDefault();
+          void problem.run(merge);
+        }}
+      >
         <p class="muted">All its views move into the other object; the name “{name}” goes away.</p>
         <label class="field">
           <span class="label">Into</span>
@@ -32,7 +39,8 @@ export function MergeDialog({ name, on_close }: { name: string; on_close: () => 
             ))}
           </select>
         </label>
-        <button class="button primary" disabled={!into}>
+        {problem.shown}
+        <button class="button primary" disabled={!into || problem.busy}>
           Merge
         </button>
       </form>

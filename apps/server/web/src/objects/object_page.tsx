@@ -7,6 +7,7 @@ import { go_to, link_to } from "../router";
 import { use_loaded } from "../ui/loaded";
 import { count, degrees } from "../ui/numbers";
 import { State, Waiting } from "../ui/state";
+import { attempt } from "../ui/toast";
 import { MergeDialog } from "./merge_dialog";
 import { RenameDialog } from "./rename_dialog";
 import { do_with_undo } from "./undo";
@@ -28,11 +29,12 @@ export function ObjectPage({ name }: { name: string }) {
   if (!data) return <Waiting what={name} />;
 
   const remove = async (): Promise<void> => {
-    const back = (): void => go_to("objects", name);
-    if (await do_with_undo(() => delete_object(name), `“${name}” is deleted.`, back)) go_to("objects");
+    await do_with_undo(delete_object(name), `“${name}” is deleted.`, () => go_to("objects", name));
+    go_to("objects");
   };
   const remove_view = async ({ view: id }: ViewSummary): Promise<void> => {
-    if (await do_with_undo(() => delete_view(name, id), "The view is deleted.")) set_view(null);
+    set_view(null);
+    await do_with_undo(delete_view(name, id), "The view is deleted.");
     if (data.views.length === 1) go_to("objects");
   };
   return (
@@ -55,7 +57,7 @@ export function ObjectPage({ name }: { name: string }) {
           <a class="button" href={export_link(name)} download={`${name}.posevote`}>
             Export
           </a>
-          <button class="button danger" onClick={() => void remove()}>
+          <button class="button danger" onClick={() => void attempt(remove)}>
             Delete
           </button>
         </div>
@@ -82,7 +84,7 @@ export function ObjectPage({ name }: { name: string }) {
           key={view.view}
           object={name}
           view={view}
-          on_delete={() => void remove_view(view)}
+          on_delete={() => void attempt(() => remove_view(view))}
           on_close={() => set_view(null)}
         />
       )}

@@ -5,7 +5,7 @@ import { objects_version } from "../api/events";
 import { link_to } from "../router";
 import { use_loaded } from "../ui/loaded";
 import { count } from "../ui/numbers";
-import { State, Waiting } from "../ui/state";
+import { Failed, State, Waiting } from "../ui/state";
 import { ImportDialog } from "./import_dialog";
 import "./objects_page.css";
 
@@ -52,12 +52,7 @@ export function ObjectsPage() {
         />
       )}
       {error && !data ? (
-        <State icon="⚠" title="The objects could not be loaded" alert>
-          <p>{error.message}</p>
-          <button class="button" onClick={reload}>
-            Try again
-          </button>
-        </State>
+        <Failed what="objects" error={error} on_retry={reload} />
       ) : !data ? (
         <Waiting what="objects" />
       ) : all.length === 0 ? (

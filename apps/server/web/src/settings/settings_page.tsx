@@ -3,7 +3,7 @@ import { useState } from "preact/hooks";
 import { change_settings, get_settings } from "../api/calls";
 import type { Setting, SettingValue } from "../api/types";
 import { use_loaded } from "../ui/loaded";
-import { State, Waiting } from "../ui/state";
+import { Failed, Waiting } from "../ui/state";
 import { attempt, say } from "../ui/toast";
 import { count } from "../ui/numbers";
 import { Dial } from "./dial_field";
@@ -21,12 +21,7 @@ export function SettingsPage() {
   const [saving, set_saving] = useState(false);
   if (error && !data)
     return (
-      <State icon="⚠" title="The settings could not be loaded" alert>
-        <p>{error.message}</p>
-        <button class="button" onClick={reload}>
-          Try again
-        </button>
-      </State>
+      <Failed what="settings" error={error} on_retry={reload} />
     );
   if (!data) return <Waiting what="settings" />;
 

@@ -1,8 +1,8 @@
 // Correcting a mask by brush: pointer, or arrow keys and Space on the picture.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { fetch_picture } from "../api/client";
-import { attempt } from "../ui/toast";
+import { ApiError, fetch_picture } from "../api/client";
 import { Dialog } from "../ui/dialog";
+import { use_problem } from "../ui/problem";
 import { Stage } from "../ui/stage";
 import { Painting } from "./painting";
 import { use_brush } from "./use_brush";
@@ -23,10 +23,12 @@ export function MaskEditor({ picture, mask, width, height, on_save, on_close }: 
   const [add, set_add] = useState(false);
   const [size, set_size] = useState(Math.round(width / 16));
   const [can_go_back, set_can_go_back] = useState(false);
-  const [saving, set_saving] = useState(false);
+  const problem = use_problem();
   const brush = use_brush(painting, { width, height, size, add }, () => set_can_go_back(true));
   useEffect(() => {
-    void attempt(async () => set_painting(new Painting(canvas.current!, await fetch_picture(mask))));
+    void problem.run(async () => {
+      set_painting(new Painting(canvas.current!, { width, height }, await mask_or_nothing(mask)));
+    });
   }, [mask]);
   return (
     <Dialog title="Correct the mask" wide on_close={on_close}>
@@ -73,6 +75,7 @@ export function MaskEditor({ picture, mask, width, height, on_save, on_close }: 
           />
         </label>
       </div>
+      {problem.shown}
       <div class="row spread">
         <button
           class="button"
@@ -86,16 +89,27 @@ export function MaskEditor({ picture, mask, width, height, on_save, on_close }: 
         </button>
         <button
           class="button primary"
-          disabled={!painting || !can_go_back || saving}
-          onClick={async () => {
-            set_saving(true);
-            if (await attempt(async () => on_save(await painting!.to_png()))) on_close();
-            set_saving(false);
-          }}
+          disabled={!painting || !can_go_back || problem.busy}
+          onClick={() =>
+            void problem.run(async () => {
+              await on_save(await painting!.to_png());
+              on_close();
+            })
+          }
         >
           Use this mask
         </button>
       </div>
     </Dialog>
   );
+}
+
+/// Where no object was found there is no mask: painting begins with nothing.
+async function mask_or_nothing(mask: string): Promise<ImageBitmap | null> {
+  try {
+    return await fetch_picture(mask);
+  } catch (error) {
+    if (error instanceof ApiError && error.status === 404) return null;
+    throw error;
+  }
 }

@@ -9,14 +9,20 @@ export class Painting {
   private context: CanvasRenderingContext2D;
   private steps: ImageData[] = [];
 
-  constructor(private shown: HTMLCanvasElement, mask: ImageBitmap) {
-    this.canvas.width = shown.width = mask.width;
-    this.canvas.height = shown.height = mask.height;
+  constructor(
+    private shown: HTMLCanvasElement,
+    size: { width: number; height: number },
+    mask: ImageBitmap | null,
+  ) {
+    this.canvas.width = shown.width = size.width;
+    this.canvas.height = shown.height = size.height;
     this.context = this.canvas.getContext("2d", { willReadFrequently: true })!;
-    this.context.drawImage(mask, 0, 0);
-    const pixels = this.pixels();
-    alpha_from_grey(pixels.data);
-    this.context.putImageData(pixels, 0, 0);
+    if (mask) {
+      this.context.drawImage(mask, 0, 0);
+      const pixels = this.pixels();
+      alpha_from_grey(pixels.data);
+      this.context.putImageData(pixels, 0, 0);
+    }
     this.show();
   }
 

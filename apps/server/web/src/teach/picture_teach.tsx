@@ -1,13 +1,12 @@
 // Teaching from pictures: one after the other, the object found by the way that is chosen.
 import { useEffect, useState } from "preact/hooks";
-import { proposal_mask, proposal_picture } from "../api/calls";
 import { DropZone } from "../ui/drop_zone";
 import { Stage } from "../ui/stage";
 import { attempt, say } from "../ui/toast";
 import type { Box } from "./box";
 import { BoxEditor } from "./box_editor";
-import { MaskEditor } from "./mask_editor";
 import { is_background_name, read_pictures, yaw_of_name, type Waiting } from "./pictures";
+import { ProposalMask } from "./proposal_mask";
 import { SilhouetteOverlay } from "./silhouette_overlay";
 import type { Teaching } from "./teaching";
 import { Verdict } from "./verdict";
@@ -115,16 +114,7 @@ export function PictureTeach({ teaching }: { teaching: Teaching }) {
           </button>
         </div>
       </div>
-      {correcting && session && proposal && (
-        <MaskEditor
-          picture={proposal_picture(session.session)}
-          mask={proposal_mask(session.session)}
-          width={proposal.width}
-          height={proposal.height}
-          on_close={() => set_correcting(false)}
-          on_save={(mask) => teaching.correct_mask(mask)}
-        />
-      )}
+      {correcting && <ProposalMask teaching={teaching} on_close={() => set_correcting(false)} />}
     </div>
   );
 }

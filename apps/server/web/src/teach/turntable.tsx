@@ -1,8 +1,7 @@
 // Teaching by turning the object before a camera: background, then side by side round the ring.
 import { useEffect, useState } from "preact/hooks";
-import { proposal_mask, proposal_picture } from "../api/calls";
 import { attempt } from "../ui/toast";
-import { MaskEditor } from "./mask_editor";
+import { ProposalMask } from "./proposal_mask";
 import { Ring } from "./ring";
 import { kTurnDeg, type Teaching } from "./teaching";
 import { Verdict } from "./verdict";
@@ -66,17 +65,15 @@ export function Turntable({ teaching, ready, grab }: Props) {
           on_choose={(yaw) => (teaching.yaw.value = yaw)}
         />
       )}
-      {correcting && session && proposal && (
-        <MaskEditor
-          picture={proposal_picture(session.session)}
-          mask={proposal_mask(session.session)}
-          width={proposal.width}
-          height={proposal.height}
-          on_close={() => set_correcting(false)}
-          on_save={async (mask) => {
-            await teaching.correct_mask(mask);
-            if (teaching.proposal.value?.usable) await teaching.accept();
+      {correcting && (
+        <ProposalMask
+          teaching={teaching}
+          on_corrected={async () => {
+            const { usable, advice } = teaching.proposal.value!;
+            if (!usable) throw new Error(advice[0] ?? "Nothing can be learned from this.");
+            await teaching.accept();
           }}
+          on_close={() => set_correcting(false)}
         />
       )}
     </div>

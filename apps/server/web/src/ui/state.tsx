@@ -24,3 +24,14 @@ export function State({ icon, title, children, alert }: Props) {
 export function Waiting({ what }: { what: string }) {
   return <p class="state muted">Loading {what} …</p>;
 }
+
+export function Failed({ what, error, on_retry }: { what: string; error: Error; on_retry: () => void }) {
+  return (
+    <State icon="⚠" title={`The ${what} could not be loaded`} alert>
+      <p>{error.message}</p>
+      <button class="button" onClick={on_retry}>
+        Try again
+      </button>
+    </State>
+  );
+}

@@ -1,0 +1,103 @@
+#include "ros1/teach_action.hpp"
+
+#include "logic/fill_message.hpp"
+#include "posevote/core/error.hpp"
+#include "ros1/convert.hpp"
+#include "ros1/node.hpp"
+
+namespace posevote::ros1 {
+namespace {
+
+constexpr double default_timeout_s = 120;
+
+}  // namespace
+
+TeachAction::TeachAction(ros::NodeHandle private_nh, Node& node)
+    : node_(node),
+      server_(
+          private_nh, "teach",
+          [this](const posevote_msgs::TeachGoalConstPtr& goal) { execute(goal); }, false) {
+  using Capture = posevote_msgs::Capture;
+  const boost::function<bool(Capture::Request&, Capture::Response&)> capture =
+      [this](Capture::Request&, Capture::Response& response) {
+        response.success = server_.isActive();
+        if (response.success)
+          capture_ = true;
+        else
+          response.message = "nothing is being taught; send a goal to the action teach first";
+        return true;
+      };
+  capture_service_ = private_nh.advertiseService("capture", capture);
+  server_.start();
+}
+
+TeachAction::~TeachAction() {
+  server_.shutdown();
+}
+
+logic::TeachView TeachAction::teach_view(const std::string& object, const std::string& source) {
+  return [this, object, source](const ViewSource& view) {
+    const logic::TaughtPicture taught = node_.recognition().teach(object, view, source);
+    node_.publish_database();
+    return taught;
+  };
+}
+
+void TeachAction::report(const logic::TeachProgress& progress, const std_msgs::Header& header) {
+  posevote_msgs::TeachFeedback feedback;
+  logic::fill_feedback(feedback, progress, header);
+  server_.publishFeedback(feedback);
+}
+
+void TeachAction::execute(const posevote_msgs::TeachGoalConstPtr& goal) {
+  capture_ = false;
+  posevote_msgs::TeachResult result;
+  try {
+    logic::fill_result(result,
+                       goal->images.empty() ? teach_from_camera(*goal) : teach_given(*goal));
+    if (is_cancelled())
+      server_.setPreempted(result, "cancelled; what was taught by then is kept");
+    else
+      server_.setSucceeded(result);
+  } catch (const std::exception& error) {
+    result.message = error.what();
+    server_.setAborted(result, error.what());
+  }
+}
+
+logic::TeachProgress TeachAction::teach_given(const posevote_msgs::TeachGoal& goal) {
+  std::vector<cv::Mat> pictures;
+  for (const sensor_msgs::Image& image : goal.images) pictures.push_back(to_picture(image));
+  cv::Mat background;
+  if (goal.background.width > 0) background = to_picture(goal.background);
+  return logic::teach_pictures(logic::to_lesson(goal), pictures, background,
+                               teach_view(goal.object, "pictures of the action teach"),
+                               [&](const logic::TeachProgress& progress) {
+                                 report(progress, goal.images[0].header);
+                                 return !is_cancelled();
+                               });
+}
+
+logic::TeachProgress TeachAction::teach_from_camera(const posevote_msgs::TeachGoal& goal) {
+  logic::TeachSession session(logic::to_lesson(goal), node_.recognition().options().watch,
+                              teach_view(goal.object, node_.camera_topic()));
+  const ros::WallDuration patience(goal.timeout_s > 0 ? goal.timeout_s : default_timeout_s);
+  const Node::Demand demand(node_);
+  std::uint64_t seen = node_.frames().number();
+  ros::WallTime last_progress = ros::WallTime::now();
+  report(session.progress(), {});
+  while (!session.finished() && !is_cancelled()) {
+    if (ros::WallTime::now() - last_progress > patience)
+      throw Error(ErrorCode::io, "no view could be taken from '" + node_.camera_topic() +
+                                     "' in time, at the step '" + session.progress().step + "'");
+    const auto frame = node_.frames().wait_newer(seen, std::chrono::milliseconds(200));
+    if (!frame) continue;
+    if (capture_.exchange(false)) session.capture();
+    if (!session.offer(frame->picture(), frame->header.stamp.toSec())) continue;
+    last_progress = ros::WallTime::now();
+    report(session.progress(), frame->header);
+  }
+  return session.progress();
+}
+
+}  // namespace posevote::ros1

@@ -1,0 +1,112 @@
+#!/usr/bin/python3
+"""The Teach action end to end: a camera that shows what the feedback asks for."""
+import sys
+import threading
+import unittest
+
+import actionlib
+import rospy
+import rostest
+from actionlib_msgs.msg import GoalStatus
+from posevote_msgs import srv
+from posevote_msgs.msg import DetectionArray, TeachAction, TeachGoal
+from sensor_msgs.msg import Image
+
+import demo
+
+NODE = "/posevote/"
+
+
+class Camera:
+    """Sends its picture ten times a second."""
+
+    def __init__(self):
+        self._publisher = rospy.Publisher("/camera/image_raw", Image, queue_size=1)
+        self._lock = threading.Lock()
+        self._picture = None
+        self._timer = rospy.Timer(rospy.Duration(0.1), self._send)
+
+    def show(self, name):
+        picture = demo.image(name)
+        with self._lock:
+            self._picture = picture
+
+    def _send(self, _):
+        with self._lock:
+            if self._picture:
+                self._picture.header.stamp = rospy.Time.now()
+                self._publisher.publish(self._picture)
+
+
+class TeachCameraTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.camera = Camera()
+        cls.client = actionlib.SimpleActionClient(NODE + "teach", TeachAction)
+        assert cls.client.wait_for_server(rospy.Duration(30))
+
+    def setUp(self):
+        listing = rospy.ServiceProxy(NODE + "list_objects", srv.ListObjects)
+        listing.wait_for_service(30)
+        remove = rospy.ServiceProxy(NODE + "remove_object", srv.RemoveObject)
+        for known in listing().database.objects:
+            self.assertTrue(remove(object=known.object).success)
+
+    def test_teaches_two_views_and_recognises(self):
+        pictures = {0: "train/muesli/y000.jpg", 1: "train/muesli/y036.jpg"}
+        feedback = []
+
+        def follow(news):
+            feedback.append(news)
+            if news.step in ("object", "turn"):
+                self.camera.show(pictures[news.views_taken])
+
+        self.camera.show("train/muesli/background.jpg")
+        self.client.send_goal(TeachGoal(object="muesli", views=2, turn_deg=36, timeout_s=60),
+                              feedback_cb=follow)
+        self.assertTrue(self.client.wait_for_result(rospy.Duration(120)))
+        result = self.client.get_result()
+        self.assertTrue(result.success, result.message)
+        self.assertEqual(result.views_added, 2)
+        self.assertEqual([f.step for f in feedback], ["background", "object", "turn", "done"])
+        self.assertEqual(list(feedback[-1].yaws_deg), [0, 36])
+        self.assertGreater(feedback[-1].features, 50)
+        self.assertEqual((feedback[-1].preview.width, feedback[-1].preview.height), (640, 480))
+
+        self.camera.show("test/breakfast.jpg")
+        detections = demo.Collector(NODE + "detections", DetectionArray)
+        found = detections.wait_for(lambda m: [d.object for d in m.detections] == ["muesli"])
+        detections.close()
+        self.assertIsNotNone(found)
+
+    def test_manual_pictures_are_taken_when_asked_for(self):
+        capture = rospy.ServiceProxy(NODE + "capture", srv.Capture)
+        capture.wait_for_service(30)
+        self.assertFalse(capture().success)
+        steps = []
+        self.camera.show("train/poster/cover.jpg")
+        self.client.send_goal(TeachGoal(object="poster", method="whole", manual=True),
+                              feedback_cb=lambda f: steps.append(f.step))
+        self.assertTrue(demo.wait_until(lambda: steps == ["object"]))
+        self.assertTrue(capture().success)
+        self.assertTrue(self.client.wait_for_result(rospy.Duration(60)))
+        self.assertTrue(self.client.get_result().success)
+
+    def test_can_be_cancelled(self):
+        self.camera.show("train/mug/background.jpg")
+        self.client.send_goal(TeachGoal(object="mug"))
+        self.client.cancel_goal()
+        self.assertTrue(self.client.wait_for_result(rospy.Duration(60)))
+        self.assertIn(self.client.get_state(), (GoalStatus.PREEMPTED, GoalStatus.RECALLED))
+
+    def test_gives_up_when_nothing_is_shown(self):
+        self.camera.show("train/mug/background.jpg")
+        self.client.send_goal(TeachGoal(object="mug", timeout_s=3))
+        self.assertTrue(self.client.wait_for_result(rospy.Duration(60)))
+        self.assertEqual(self.client.get_state(), GoalStatus.ABORTED)
+        self.assertIn("'object'", self.client.get_result().message)
+
+
+if __name__ == "__main__":
+    rospy.init_node("teach_camera_test")
+    rostest.rosrun("posevote_ros", "teach_camera", TeachCameraTest, sys.argv)

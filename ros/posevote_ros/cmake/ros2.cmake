@@ -1,0 +1,34 @@
+# Component and executable, launch files.
+find_package(ament_cmake REQUIRED)
+set(used diagnostic_updater geometry_msgs posevote_msgs rclcpp rclcpp_action rclcpp_components
+  rclcpp_lifecycle sensor_msgs std_msgs tf2_ros vision_msgs visualization_msgs)
+foreach(package IN LISTS used)
+  find_package(${package} REQUIRED)
+endforeach()
+
+add_library(posevote_ros_component SHARED
+  ros2/camera_input.cpp
+  ros2/convert.cpp
+  ros2/node.cpp
+  ros2/parameters.cpp
+  ros2/services.cpp
+  ros2/teach_action.cpp)
+target_include_directories(posevote_ros_component PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(posevote_ros_component PRIVATE posevote_ros_logic)
+ament_target_dependencies(posevote_ros_component ${used})
+target_compile_options(posevote_ros_component PRIVATE -Wall -Wextra)
+rclcpp_components_register_node(posevote_ros_component
+  PLUGIN "posevote::ros2::Node" EXECUTABLE posevote_node)
+
+install(TARGETS posevote_ros_component
+  ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)
+install(DIRECTORY launch rviz config DESTINATION share/${PROJECT_NAME}
+  FILES_MATCHING PATTERN *.launch.py PATTERN ros2.rviz PATTERN *.yaml)
+install(PROGRAMS scripts/studio DESTINATION lib/${PROJECT_NAME})
+
+if(BUILD_TESTING)
+  find_package(launch_testing_ament_cmake REQUIRED)
+  add_launch_test(test/ros2/node_test.py TIMEOUT 120
+    ARGS "demo:=${CMAKE_CURRENT_SOURCE_DIR}/../../data/demo")
+endif()
+ament_package()

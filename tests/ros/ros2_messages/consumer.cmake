@@ -1,0 +1,7 @@
+cmake_minimum_required(VERSION 3.16)
+project(consumer CXX)
+set(CMAKE_CXX_STANDARD 17)
+find_package(posevote_msgs REQUIRED)
+add_subdirectory(${SOURCE}/ros/posevote_ros/logic logic)
+add_executable(consumer ${SOURCE}/tests/ros/ros2_messages/consumer.cpp)
+target_link_libraries(consumer PRIVATE posevote_ros_logic ${posevote_msgs_TARGETS})

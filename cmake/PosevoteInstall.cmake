@@ -54,6 +54,10 @@ if(TARGET posevote_store)
   posevote_private_package(SQLiteCpp SQLiteCpp -lSQLiteCpp)
   posevote_private_package(SQLite3 SQLite::SQLite3 -lsqlite3)
   posevote_private_package(OpenSSL OpenSSL::Crypto -lcrypto)
+  if(POSEVOTE_WITH_POSTGRES)
+    list(APPEND posevote_private pqxx)
+    list(APPEND posevote_private_flags -lpqxx)
+  endif()
 endif()
 target_link_libraries(posevote_library PUBLIC ${posevote_public} PRIVATE ${posevote_private})
 
@@ -62,7 +66,7 @@ install(TARGETS posevote_library EXPORT posevoteTargets
 
 # Headers of the modules' own folders are public; deeper folders and these few are the library's own
 # business, and need C++20 or a dependency's headers.
-set(posevote_internal "/(made_[a-z_]+|paper_parts|index/parallel)\\.hpp$")
+set(posevote_internal "/(made_[a-z_]+|object_store_contract|paper_parts|index/parallel)\\.hpp$")
 foreach(module IN LISTS posevote_modules)
   string(REGEX REPLACE "^posevote_" "" folder ${module})
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/posevote/${folder}/*.hpp)
@@ -73,6 +77,10 @@ install(FILES src/posevote/opencv.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/po
 if(TARGET posevote_store)
   install(FILES src/posevote/store/sqlite/sqlite_store.hpp
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/posevote/store/sqlite)
+  if(POSEVOTE_WITH_POSTGRES)
+    install(FILES src/posevote/store/postgres/postgres_store.hpp
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/posevote/store/postgres)
+  endif()
 endif()
 
 # find_package(posevote)

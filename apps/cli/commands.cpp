@@ -7,7 +7,7 @@
 namespace posevote::cli {
 
 void add_commands(CLI::App& app, CommandContext& context) {
-  for (const auto add : {add_teach, add_recognize, add_objects, add_evaluate, add_dataset,
+  for (const auto add : {add_teach, add_recognize, add_objects, add_sync, add_evaluate, add_dataset,
                          add_bench, add_options, add_completion, add_man})
     add(app, context);
 }

@@ -28,8 +28,9 @@ fs::path data_folder() {
 void add_database(CLI::App& command, std::string& path) {
   command
       .add_option("--db", path,
-                  "Database of objects; default: $POSEVOTE_DB, else posevote/objects.db in the "
-                  "XDG data folder")
+                  "Database of objects: a file, or postgresql://USER@HOST/NAME (leave the password "
+                  "to ~/.pgpass); default: $POSEVOTE_DB, else posevote/objects.db in the XDG data "
+                  "folder")
       ->type_name("DB");
 }
 
@@ -41,13 +42,12 @@ std::string database_path(const std::string& given) {
 
 bool database_exists(const std::string& given) {
   std::error_code ignored;
-  return fs::exists(database_path(given), ignored);
+  const std::string path = database_path(given);
+  return is_server_address(path) || fs::exists(path, ignored);
 }
 
 std::unique_ptr<ObjectStore> open_database(const std::string& given, Access access) {
   const std::string path = database_path(given);
-  if (path.starts_with("postgresql:") || path.starts_with("postgres:"))
-    throw Error(ErrorCode::unsupported, "this build cannot use PostgreSQL; name a file with --db");
   if (access == Access::create && given.empty() && environment("POSEVOTE_DB").empty()) {
     std::error_code error;
     fs::create_directories(fs::path(path).parent_path(), error);
@@ -55,9 +55,7 @@ std::unique_ptr<ObjectStore> open_database(const std::string& given, Access acce
       throw Error(ErrorCode::io,
                   "cannot make the folder of database '" + path + "': " + error.message());
   }
-  SqliteOptions options;
-  options.access = access;
-  return open_sqlite_store(path, options);
+  return open_store(path, access);
 }
 
 void choose_features(FeatureOptions& options, const ObjectStore* store, const std::string& kind) {

@@ -5,8 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "posevote/store/object_store.hpp"
-#include "posevote/store/sqlite/sqlite_store.hpp"
+#include "posevote/store/open_store.hpp"
 
 namespace posevote::cli {
 
@@ -17,6 +16,7 @@ void add_database(CLI::App& command, std::string& path);
 /// when none of the variables is set that say where that is.
 [[nodiscard]] std::string database_path(const std::string& given);
 
+/// Servers' databases count as there: they are asked when they are opened.
 [[nodiscard]] bool database_exists(const std::string& given);
 
 /// Opens the database; with Access::create the default folder is made, too.

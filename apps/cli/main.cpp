@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "posevote/core/error.hpp"
 #include "posevote/core/options.hpp"
+#include "posevote/store/address.hpp"
 
 namespace {
 
@@ -73,7 +74,7 @@ int run(int argc, char** argv) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
     const std::string hint = "; see " + full_name(deepest(app)) + " --help";
-    print_error(explain(app, error, argc, argv) + hint);
+    print_error(posevote::without_passwords(explain(app, error, argc, argv) + hint));
     return 2;
   }
   std::cout.flush();
@@ -83,13 +84,31 @@ int run(int argc, char** argv) {
   return context.exit_status;
 }
 
+/// Overwrites passwords in the arguments, which every user of the machine can list; returns what
+/// they were.
+std::vector<std::string> take_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments(argv, argv + argc);
+  for (int i = 1; i < argc; ++i) {
+    const std::string& given = arguments[static_cast<std::size_t>(i)];
+    const std::string shown = posevote::without_passwords(given);
+    if (shown == given) continue;
+    std::fill_n(argv[i], given.size(), '\0');
+    std::copy_n(shown.begin(), std::min(shown.size(), given.size()), argv[i]);
+  }
+  return arguments;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::vector<std::string> arguments = take_arguments(argc, argv);
+  std::vector<char*> words;
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error to tell, not to die of
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
-    return run(argc, argv);
+    return run(argc, words.data());
   } catch (const posevote::Error& error) {
     print_error(error.what());
   } catch (const std::bad_alloc&) {

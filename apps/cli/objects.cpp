@@ -211,9 +211,8 @@ void add_import(CLI::App& objects) {
       ->excludes(merge);
   add_database(*command, a->database);
   command->callback([a] {
-    SqliteOptions source;
-    source.access = Access::read_only;
-    const auto from = open_sqlite_store(a->file, source);  // before a database is made for nothing
+    const auto from =
+        open_store(a->file, Access::read_only);  // before a database is made for nothing
     const auto to = open_database(a->database, Access::create);
     const auto result = copy_objects(*from, *to, a->names,
                                      a->merge     ? OnConflict::merge
@@ -236,6 +235,8 @@ void add_objects(CLI::App& app, CommandContext& context) {
   add_rename(*objects);
   add_export(*objects);
   add_import(*objects);
+  add_diff(*objects);
+  add_merge(*objects);
   add_rebuild(*objects, context);
   add_impostors(*objects, context);
 }

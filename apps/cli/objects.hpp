@@ -6,6 +6,8 @@
 namespace posevote::cli {
 
 void add_rebuild(CLI::App& objects, CommandContext& context);
+void add_diff(CLI::App& objects);
+void add_merge(CLI::App& objects);
 void add_impostors(CLI::App& objects, CommandContext& context);
 
 }  // namespace posevote::cli

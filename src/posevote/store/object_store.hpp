@@ -1,6 +1,7 @@
 // Where taught objects are kept, whatever the database is.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -29,8 +30,9 @@ struct ObjectSummary {
 
 struct ViewSummary {
   std::string id;
-  std::string hash;    ///< View::hash
-  double yaw_deg = 0;  ///< NaN: unknown
+  std::string identity;  ///< hash of what was taught: picture, mask, yaw
+  std::string hash;      ///< View::hash: of that and the features made of it
+  double yaw_deg = 0;    ///< NaN: unknown
   cv::Size image_size;
   int features = 0;
   double coverage = 0;  ///< share of the picture that the object covers
@@ -40,6 +42,7 @@ struct ViewSummary {
 
 struct ImpostorSummary {
   std::string id;
+  std::string identity;  ///< hash of its picture
   int features = 0;
   Provenance provenance;
 };
@@ -61,18 +64,25 @@ using FeatureMaker = std::function<Features(const std::vector<std::uint8_t>& pic
 /// disk when the call returns; a process that dies loses at most the change in hand.
 ///
 /// Errors of all members: not_found for names and ids that are not there, invalid_argument for
-/// names that may not be (see object_name.hpp), already_exists, io (read-only, disk full, busy for
-/// too long), database_unusable when stored data turns out to be damaged. The message names the
-/// database.
+/// names that may not be (see object_name.hpp), already_exists, io (not permitted, disk full, busy
+/// for too long, connection lost), database_unusable when stored data turns out to be damaged. The
+/// message names the database.
 class ObjectStore {
  public:
   virtual ~ObjectStore() = default;
 
   [[nodiscard]] virtual const std::string& location() const = 0;
   [[nodiscard]] virtual bool read_only() const = 0;
+  /// Whether this user may also remove and rename.
+  [[nodiscard]] virtual bool may_remove() const { return !read_only(); }
 
   /// Grows with every change, whichever process made it.
   [[nodiscard]] virtual std::int64_t version() const = 0;
+
+  /// Waits until `version()` is no longer `known`; false when that does not happen within
+  /// `timeout`. Other calls go on meanwhile.
+  [[nodiscard]] virtual bool wait_for_change(std::int64_t known,
+                                             std::chrono::milliseconds timeout) const;
 
   /// The features that all views have in common; empty as long as there are none.
   [[nodiscard]] virtual std::optional<FeatureRecord> features() const = 0;
@@ -104,6 +114,10 @@ class ObjectStore {
   [[nodiscard]] virtual Impostor impostor(const std::string& id) const = 0;
   virtual AddResult add_impostor(const Impostor& impostor, const FeatureRecord& features) = 0;
   virtual void remove_impostor(const std::string& id) = 0;
+
+  /// A text that is kept beside the objects under a key of the caller's; "" when there is none.
+  [[nodiscard]] virtual std::string note(const std::string& key) const = 0;
+  virtual void set_note(const std::string& key, const std::string& text) = 0;
 
   /// Makes the features of all views and impostors again, as one change. What `maker` throws ends
   /// it.

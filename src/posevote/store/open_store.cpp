@@ -2,6 +2,9 @@
 
 #include "posevote/core/error.hpp"
 #include "posevote/store/sqlite/sqlite_store.hpp"
+#ifdef POSEVOTE_WITH_POSTGRES
+#include "posevote/store/postgres/postgres_store.hpp"
+#endif
 
 namespace posevote {
 
@@ -10,8 +13,15 @@ bool is_server_address(const std::string& location) {
 }
 
 std::unique_ptr<ObjectStore> open_store(const std::string& location, Access access) {
-  if (is_server_address(location))
+  if (is_server_address(location)) {
+#ifdef POSEVOTE_WITH_POSTGRES
+    PostgresOptions options;
+    options.access = access;
+    return open_postgres_store(location, options);
+#else
     throw Error(ErrorCode::unsupported, "this build cannot use PostgreSQL; name a file instead");
+#endif
+  }
   SqliteOptions options;
   options.access = access;
   return open_sqlite_store(location, options);

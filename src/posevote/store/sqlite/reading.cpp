@@ -2,29 +2,14 @@
 #include <SQLiteCpp/Statement.h>
 #include <sqlite3.h>
 
-#include <opencv2/imgproc.hpp>
-
 #include "posevote/core/error.hpp"
-#include "posevote/image/read_image.hpp"
 #include "posevote/store/sqlite/rows.hpp"
 #include "posevote/store/sqlite/sqlite_store_impl.hpp"
 
 namespace posevote {
 namespace sqlite {
-namespace {
 
 using SQLite::Statement;
-
-/// 8-bit BGR of whatever was taught.
-cv::Mat to_bgr(const cv::Mat& image) {
-  cv::Mat bytes = image, colour;
-  if (image.depth() == CV_16U) image.convertTo(bytes, CV_8U, 1.0 / 256);
-  if (bytes.channels() == 3) return bytes;
-  cv::cvtColor(bytes, colour, bytes.channels() == 1 ? cv::COLOR_GRAY2BGR : cv::COLOR_BGRA2BGR);
-  return colour;
-}
-
-}  // namespace
 
 SqliteStore::SqliteStore(std::string path, const SqliteOptions& options)
     : path_(std::move(path)), database_(connect(path_, options)) {}
@@ -87,19 +72,20 @@ std::vector<ObjectSummary> SqliteStore::list() const {
 std::vector<ViewSummary> SqliteStore::views(const std::string& object) const {
   return reading([&] {
     std::vector<ViewSummary> views;
-    Statement row(
-        database_,
-        "SELECT number, hash, yaw_deg, width, height, features, coverage, method, source, "
-        "taught_at, version FROM view WHERE object = ? ORDER BY number");
+    Statement row(database_,
+                  "SELECT number, identity, hash, yaw_deg, width, height, features, coverage, "
+                  "method, source, "
+                  "taught_at, version FROM view WHERE object = ? ORDER BY number");
     row.bind(1, object_id(object));
     while (row.executeStep())
       views.push_back({row.getColumn(0).getString(),
                        row.getColumn(1).getString(),
-                       yaw_of(row.getColumn(2)),
-                       {row.getColumn(3).getInt(), row.getColumn(4).getInt()},
-                       row.getColumn(5).getInt(),
-                       row.getColumn(6).getDouble(),
-                       row.getColumn(7).getString(),
+                       row.getColumn(2).getString(),
+                       yaw_of(row.getColumn(3)),
+                       {row.getColumn(4).getInt(), row.getColumn(5).getInt()},
+                       row.getColumn(6).getInt(),
+                       row.getColumn(7).getDouble(),
+                       row.getColumn(8).getString(),
                        provenance_of(row)});
     return views;
   });
@@ -152,11 +138,8 @@ std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id,
   row.bind(1, id);
   row.executeStep();
   View view = checked_view(row);
-  if (options.pictures) {
-    view.picture = to_bgr(decode_image(copy_of(row.getColumn("picture")), path_));
-    const Blob mask = copy_of(row.getColumn("mask"));
-    if (!mask.empty()) view.mask = decode_image(mask, path_);
-  }
+  if (options.pictures)
+    decode_pictures(view, copy_of(row.getColumn("picture")), copy_of(row.getColumn("mask")), path_);
   return std::make_shared<const View>(std::move(view));
 }
 
@@ -168,10 +151,8 @@ std::vector<std::shared_ptr<const View>> SqliteStore::load_views(std::int64_t ob
   while (row.executeStep()) {
     const std::string key = row.getColumn(2).getString() + '/' + row.getColumn(1).getString() +
                             (options.pictures ? " with pictures" : "");
-    std::weak_ptr<const View>& cached = cache_[key];
-    std::shared_ptr<const View> view = cached.lock();
-    if (!view) cached = view = load_view(row.getColumn(0).getInt64(), options);
-    views.push_back(std::move(view));
+    views.push_back(
+        cache_.get(key, [&] { return load_view(row.getColumn(0).getInt64(), options); }));
   }
   return views;
 }
@@ -182,7 +163,7 @@ ObjectModel SqliteStore::load_object(const std::string& name, const LoadOptions&
 
 std::shared_ptr<const ModelSet> SqliteStore::load(const LoadOptions& options) const {
   return reading([&]() -> std::shared_ptr<const ModelSet> {
-    std::erase_if(cache_, [](const auto& entry) { return entry.second.expired(); });
+    cache_.tidy();
     const auto features = recorded_features();
     if (!features) return std::make_shared<const ModelSet>();
     std::vector<ObjectModel> objects;
@@ -201,11 +182,12 @@ std::shared_ptr<const ModelSet> SqliteStore::load(const LoadOptions& options) co
 std::vector<ImpostorSummary> SqliteStore::impostors() const {
   return reading([&] {
     std::vector<ImpostorSummary> impostors;
-    Statement row(database_,
-                  "SELECT id, features, source, taught_at, version FROM impostor ORDER BY id");
+    Statement row(
+        database_,
+        "SELECT id, identity, features, source, taught_at, version FROM impostor ORDER BY id");
     while (row.executeStep())
-      impostors.push_back(
-          {row.getColumn(0).getString(), row.getColumn(1).getInt(), provenance_of(row)});
+      impostors.push_back({row.getColumn(0).getString(), row.getColumn(1).getString(),
+                           row.getColumn(2).getInt(), provenance_of(row)});
     return impostors;
   });
 }
@@ -216,6 +198,14 @@ Impostor SqliteStore::impostor(const std::string& id) const {
     row.bind(1, id);
     if (!row.executeStep()) fail(ErrorCode::not_found, "holds no impostor '" + id + "'");
     return Impostor{id, features_of(row), copy_of(row.getColumn("picture")), provenance_of(row)};
+  });
+}
+
+std::string SqliteStore::note(const std::string& key) const {
+  return reading([&]() -> std::string {
+    Statement row(database_, "SELECT value FROM meta WHERE key = ?");
+    row.bind(1, note_prefix + key);
+    return row.executeStep() ? row.getColumn(0).getString() : "";
   });
 }
 

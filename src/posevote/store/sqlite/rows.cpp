@@ -1,21 +1,11 @@
 #include "posevote/store/sqlite/rows.hpp"
 
-#include <chrono>
-#include <ctime>
+#include "posevote/store/stored_view.hpp"
 
 namespace posevote::sqlite {
 namespace {
 
 using SQLite::Statement;
-
-std::string utc_now() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
 
 cv::Point2f point_of(Statement& row, const char* x, const char* y) {
   return {static_cast<float>(row.getColumn(x).getDouble()),

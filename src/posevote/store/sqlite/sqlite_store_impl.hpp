@@ -4,13 +4,16 @@
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Transaction.h>
 
-#include <map>
 #include <mutex>
 
 #include "posevote/store/sqlite/connection.hpp"
 #include "posevote/store/sqlite/sqlite_store.hpp"
+#include "posevote/store/stored_view.hpp"
 
 namespace posevote::sqlite {
+
+/// Notes stand in the table meta beside what the store itself keeps there.
+inline const std::string note_prefix = "note ";
 
 class SqliteStore : public ObjectStore {
  public:
@@ -27,6 +30,7 @@ class SqliteStore : public ObjectStore {
   ObjectModel load_object(const std::string& name, const LoadOptions& options) const override;
   std::vector<ImpostorSummary> impostors() const override;
   Impostor impostor(const std::string& id) const override;
+  std::string note(const std::string& key) const override;
 
   AddResult add_view(const std::string& object, const TaughtView& view,
                      const FeatureRecord& features) override;
@@ -35,6 +39,7 @@ class SqliteStore : public ObjectStore {
   void rename_object(const std::string& from, const std::string& to) override;
   AddResult add_impostor(const Impostor& impostor, const FeatureRecord& features) override;
   void remove_impostor(const std::string& id) override;
+  void set_note(const std::string& key, const std::string& text) override;
   void rebuild(const FeatureRecord& features, const FeatureMaker& maker) override;
   void transact(const std::function<void()>& work) override;
 
@@ -73,7 +78,7 @@ class SqliteStore : public ObjectStore {
   std::string path_;
   mutable std::recursive_mutex mutex_;  // recursive: `transact` calls back into the store
   mutable SQLite::Database database_;
-  mutable std::map<std::string, std::weak_ptr<const View>> cache_;
+  mutable ViewCache cache_;
   bool writing_ = false;
 };
 

@@ -175,6 +175,15 @@ void SqliteStore::remove_impostor(const std::string& id) {
   });
 }
 
+void SqliteStore::set_note(const std::string& key, const std::string& text) {
+  transact([&] {
+    Statement insert(database_, "INSERT OR REPLACE INTO meta VALUES (?, ?)");
+    insert.bind(1, note_prefix + key);
+    insert.bind(2, text);
+    insert.exec();
+  });
+}
+
 std::vector<std::int64_t> SqliteStore::row_ids(const std::string& table) const {
   std::vector<std::int64_t> ids;
   Statement row(database_, "SELECT id FROM " + table + " ORDER BY id");

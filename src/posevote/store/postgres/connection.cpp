@@ -1,0 +1,83 @@
+#include "posevote/store/postgres/connection.hpp"
+
+#include <algorithm>
+
+#include "posevote/core/error.hpp"
+#include "posevote/store/address.hpp"
+
+namespace posevote::postgres {
+namespace {
+
+[[noreturn]] void fail(ErrorCode code, const std::string& location, const std::string& reason) {
+  throw Error(code, "database '" + location + "' " + reason);
+}
+
+/// The server's words as a part of one sentence, without secrets.
+std::string words_of(const std::exception& error) {
+  std::string words = without_passwords(error.what());
+  std::ranges::replace(words, '\n', ' ');
+  while (!words.empty() && (words.back() == ' ' || words.back() == '.')) words.pop_back();
+  return words;
+}
+
+[[noreturn]] void rethrow_sql(const pqxx::sql_error& error, const std::string& location) {
+  const std::string state = error.sqlstate(), kind = state.substr(0, 2);
+  if (dynamic_cast<const pqxx::insufficient_privilege*>(&error) || state == "25006")
+    fail(ErrorCode::io, location,
+         "cannot be read or changed like that: this user has not been given the right (" +
+             words_of(error) + ")");
+  if (state == "55P03" || kind == "40")
+    fail(ErrorCode::io, location, "is in use by another program; try again");
+  if (dynamic_cast<const pqxx::insufficient_resources*>(&error) || kind == "53")
+    fail(ErrorCode::io, location,
+         "cannot be written: the server has no space, memory or connection "
+         "left; nothing was changed");
+  if (kind == "57" || kind == "08")
+    fail(ErrorCode::io, location, "is no longer connected: " + words_of(error));
+  if (state == "54000" || state == "22001")
+    fail(ErrorCode::invalid_argument, location, "cannot take a picture that large");
+  fail(ErrorCode::database_unusable, location, "cannot be used: " + words_of(error));
+}
+
+}  // namespace
+
+std::string complete_address(const std::string& address, const PostgresOptions& options) {
+  std::string complete = address;
+  char separator = address.find('?') == std::string::npos ? '?' : '&';
+  const auto add = [&](const std::string& name, const std::string& value) {
+    if (address.find(name + "=") != std::string::npos) return;
+    complete += separator + name + "=" + value;
+    separator = '&';
+  };
+  add("connect_timeout", std::to_string(options.connect_timeout_s));
+  add("tcp_user_timeout", "15000");
+  add("keepalives_idle", "5");
+  add("keepalives_interval", "3");
+  add("keepalives_count", "3");
+  add("client_encoding", "UTF8");
+  add("fallback_application_name", "posevote");
+  return complete;
+}
+
+void rethrow(const std::string& location) {
+  try {
+    throw;
+  } catch (const pqxx::sql_error& error) {
+    rethrow_sql(error, location);
+  } catch (const pqxx::in_doubt_error&) {
+    fail(
+        ErrorCode::io, location,
+        "lost its connection while a change was being finished; look whether it was made, and make "
+        "it again if not");
+  } catch (const pqxx::broken_connection& error) {
+    fail(ErrorCode::io, location, "cannot be reached: " + words_of(error));
+  } catch (const pqxx::failure& error) {
+    fail(ErrorCode::io, location, "does not answer as it should: " + words_of(error));
+  } catch (const pqxx::argument_error& error) {
+    fail(ErrorCode::invalid_argument, location, "cannot be opened: " + words_of(error));
+  } catch (const std::exception& error) {
+    fail(ErrorCode::database_unusable, location, "cannot be used: " + words_of(error));
+  }
+}
+
+}  // namespace posevote::postgres

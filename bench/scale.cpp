@@ -156,10 +156,10 @@ struct Problem {
   std::vector<int> first;  ///< row of each view's first descriptor
   cv::Mat rows;            ///< all descriptors; only for the other libraries
   Features queries;
-  std::vector<std::vector<Neighbor>> exact;
+  NeighborLists exact;
   int descriptors = 0;
 
-  [[nodiscard]] Rows to_rows(const std::vector<std::vector<Neighbor>>& found) const {
+  [[nodiscard]] Rows to_rows(const NeighborLists& found) const {
     Rows result(found.size());
     for (std::size_t q = 0; q < found.size(); ++q)
       for (const Neighbor& n : found[q])

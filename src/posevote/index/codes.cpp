@@ -1,12 +1,12 @@
 #include "posevote/index/codes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <opencv2/core/hal/hal.hpp>
 
 #include "posevote/index/dots.hpp"
+#include "posevote/index/sums.hpp"
 
 namespace posevote {
 namespace {
@@ -25,18 +25,26 @@ int offset_code(float v) {
   return static_cast<int>(std::clamp(v + 128.5F, 1.0F, 255.0F));  // positive: cutting it off rounds
 }
 
-/// Sum of term(d) in independent parts, so that the compiler may use vectors without reordering.
-template <class Term>
-float sum_over(int dimension, const Term& term) {
-  constexpr int kParts = 16;
-  std::array<float, kParts> parts{};
-  int d = 0;
-  for (; d + kParts <= dimension; d += kParts)
-    for (int i = 0; i < kParts; ++i) parts[static_cast<std::size_t>(i)] += term(d + i);
-  float sum = 0;
-  for (; d < dimension; ++d) sum += term(d);
-  for (const float part : parts) sum += part;
-  return sum;
+/// Is the sum of the magnitudes a number?
+bool is_finite(const float* row, std::size_t count) {
+  return std::isfinite(sum_over(count, [=](std::size_t d) { return std::abs(row[d]); }));
+}
+
+/// Largest |a| + |b| of the pairs (2j, 2j + 1).
+float largest_pair(const float* row, std::size_t count) {
+  constexpr std::size_t kParts = 8;
+  float parts[kParts] = {};
+  std::size_t d = 0;
+  for (; d + 2 * kParts <= count; d += 2 * kParts)
+    for (std::size_t i = 0; i < kParts; ++i) {
+      const float pair = std::abs(row[d + 2 * i]) + std::abs(row[d + 2 * i + 1]);
+      parts[i] = parts[i] < pair ? pair : parts[i];
+    }
+  float largest = 0;
+  for (; d < count; d += 2)
+    largest = std::max(largest, std::abs(row[d]) + (d + 1 < count ? std::abs(row[d + 1]) : 0.0F));
+  for (const float part : parts) largest = std::max(largest, part);
+  return largest;
 }
 
 }  // namespace
@@ -53,8 +61,10 @@ std::size_t Coder::block_bytes() const noexcept {
 
 float Coder::encode_taught(const float* row, const float* center, float scale, std::uint8_t* block,
                            std::size_t lane) const {
-  const auto difference = [=](int d) { return center ? row[d] - center[d] : row[d]; };
-  const float squares = sum_over(dimension_, [&](int d) { return difference(d) * difference(d); });
+  const auto size = static_cast<std::size_t>(dimension_);
+  const auto difference = [=](std::size_t d) { return center ? row[d] - center[d] : row[d]; };
+  const float squares =
+      sum_over(size, [&](std::size_t d) { return difference(d) * difference(d); });
   if (!std::isfinite(squares)) {
     for (std::size_t d = 0; d < quads_ * 4; ++d)
       block[(d / 4 * kBlockLanes + lane) * 4 + d % 4] = 128;
@@ -66,8 +76,8 @@ float Coder::encode_taught(const float* row, const float* center, float scale, s
   float residual = 0;
   for (std::size_t quad = 0; quad < quads_; ++quad) {
     std::uint8_t codes[4] = {128, 128, 128, 128};
-    const int first = static_cast<int>(quad) * 4;
-    for (int i = 0; i < std::min(4, dimension_ - first); ++i) {
+    const std::size_t first = quad * 4;
+    for (std::size_t i = 0; i < std::min<std::size_t>(4, size - first); ++i) {
       const float v = difference(first + i);
       const int code = offset_code(v * factor);
       const float error = v - static_cast<float>(code - 128) * step;
@@ -86,23 +96,27 @@ void Coder::decode_taught(const std::uint8_t* block, std::size_t lane, float sca
 }
 
 QueryCode Coder::encode_query(const float* row, std::int8_t* code) const {
-  float largest_pair = 0;
-  for (int d = 0; d < dimension_; d += 2) {
-    const float pair = std::abs(row[d]) + (d + 1 < dimension_ ? std::abs(row[d + 1]) : 0.0F);
-    if (std::isfinite(pair)) largest_pair = std::max(largest_pair, pair);
+  const auto size = static_cast<std::size_t>(dimension_);
+  std::vector<float> cleaned;
+  if (!is_finite(row, size)) {
+    cleaned.assign(row, row + size);
+    for (float& v : cleaned) v = std::isfinite(v) ? v : 0.0F;
+    row = cleaned.data();
   }
+  const float pair = largest_pair(row, size);
   // Rounding adds up to 1 to the sum of a pair, which may be 128.
-  const float scale =
-      largest_pair > 0 ? std::min(query_scale_, 127.0F / largest_pair) : query_scale_;
-  float residual = 0;
-  for (int d = 0; d < dimension_; ++d) {
-    const float v = std::isfinite(row[d]) ? row[d] : 0.0F;
-    code[d] = static_cast<std::int8_t>(offset_code(v * scale) - 128);
-    const float error = v - static_cast<float>(code[d]) / scale;
-    residual += error * error;
-  }
-  std::fill(code + dimension_, code + quads_ * 4, std::int8_t{0});
-  return {scale, std::sqrt(residual)};
+  const float scale = pair > 0 ? std::min(query_scale_, 127.0F / pair) : query_scale_;
+  const float step = 1 / scale;
+  for (std::size_t d = 0; d < size; ++d)
+    code[d] = static_cast<std::int8_t>(offset_code(row[d] * scale) - 128);
+  std::fill(code + size, code + quads_ * 4, std::int8_t{0});
+  const auto error = [=](std::size_t d) { return row[d] - static_cast<float>(code[d]) * step; };
+  QueryCode result;
+  result.scale = scale;
+  result.residual = std::sqrt(sum_over(size, [&](std::size_t d) { return error(d) * error(d); }));
+  result.lost = sum_over(size, [&](std::size_t d) { return error(d) * row[d]; });
+  for (std::size_t d = 0; d < size; ++d) result.offset += 128 * code[d];
+  return result;
 }
 
 float Coder::error(float query_residual, float taught_residual, float taught_length,
@@ -120,11 +134,7 @@ const float* read_row(const cv::Mat& descriptors, int i, std::vector<float>& buf
 }
 
 float product(const float* a, const float* b, int dimension) {
-  return sum_over(dimension, [=](int d) { return a[d] * b[d]; });
-}
-
-float distance(const float* a, const float* b, int dimension) {
-  return std::sqrt(sum_over(dimension, [=](int d) { return (a[d] - b[d]) * (a[d] - b[d]); }));
+  return sum_over(static_cast<std::size_t>(dimension), [=](std::size_t d) { return a[d] * b[d]; });
 }
 
 }  // namespace posevote

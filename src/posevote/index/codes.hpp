@@ -12,7 +12,9 @@ namespace posevote {
 /// code's scale, is about the scalar product of what they stand for.
 struct QueryCode {
   float scale = 0;
-  float residual = 0;  ///< length of (descriptor - what the code stands for)
+  float residual = 0;       ///< length of (descriptor - what the code stands for)
+  float lost = 0;           ///< product of (descriptor - what the code stands for) and descriptor
+  std::int32_t offset = 0;  ///< 128 * sum of the code
 };
 
 /// Scale of taught values that lie in [-1, 1]; none is cut.
@@ -58,8 +60,5 @@ class Coder {
 
 /// Scalar product, summed in one fixed order.
 [[nodiscard]] float product(const float* a, const float* b, int dimension);
-
-/// Euclidean distance, summed in one fixed order.
-[[nodiscard]] float distance(const float* a, const float* b, int dimension);
 
 }  // namespace posevote

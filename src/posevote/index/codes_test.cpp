@@ -96,6 +96,21 @@ TEST(Coder, TakesWhatIsNotANumberForZero) {
   for (std::size_t i = 4; i < 8; ++i) EXPECT_EQ(block[i], 128);
 }
 
+TEST(Coder, TellsWhatAQueryLost) {
+  const Coder coder(37);
+  const auto row = unit_vector(37, 3);
+  std::vector<std::int8_t> code(coder.quads() * 4);
+  const QueryCode coded = coder.encode_query(row.data(), code.data());
+  std::vector<float> stands_for(37);
+  int sum = 0;
+  for (std::size_t d = 0; d < 37; ++d) {
+    stands_for[d] = static_cast<float>(code[d]) / coded.scale;
+    sum += code[d];
+  }
+  EXPECT_EQ(coded.offset, 128 * sum);
+  EXPECT_NEAR(coded.lost, 1 - product(row.data(), stands_for.data(), 37), 1e-6);
+}
+
 TEST(Coder, DecodesWhatItEncoded) {
   const Coder coder(6);
   const std::vector<float> row{0.1F, -0.2F, 0.3F, -0.4F, 0.5F, -0.6F};

@@ -9,7 +9,10 @@
 
 #include <hwy/highway.h>
 
+#include <cmath>
 #include <cstring>
+
+#include "posevote/index/sums.hpp"
 
 HWY_BEFORE_NAMESPACE();
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3_DL
@@ -23,9 +26,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 
-using scalar::block_maxima;
+using scalar::distances;
 using scalar::dots;
 using scalar::find_at_least;
+using scalar::kth_largest;
+using scalar::scan;
 
 #else
 
@@ -102,6 +107,14 @@ HWY_INLINE Word add_products(Word sum, hn::Vec<Bytes> a, Dword b) {
 #endif
 }
 
+/// GCC would load all queries of a round first, for which there are not enough registers: it spills
+/// a sum in the innermost loop, which then takes twice as long. This keeps the order as written.
+HWY_INLINE void keep_in_register([[maybe_unused]] Word& sum) {
+#if HWY_ARCH_X86 && (HWY_COMPILER_GCC || HWY_COMPILER_CLANG)
+  asm volatile("" : "+x"(sum.raw));
+#endif
+}
+
 /// Adds the two words of each lane, takes `correction` off and stores the kBlockLanes results.
 HWY_INLINE void store_sums(const Word* sums, std::int32_t correction, std::int16_t* products) {
 #if HWY_TARGET == HWY_AVX2
@@ -133,10 +146,14 @@ HWY_INLINE void dots_of_block(const std::uint8_t* block, std::size_t quads,
     hn::Vec<Bytes> codes[kVectors];
     for (std::size_t v = 0; v < kVectors; ++v)
       codes[v] = hn::LoadU(kBytes, block + quad * kRow + v * hn::MaxLanes(kBytes));
-    for (std::size_t q = 0; q < Q; ++q) {
+#pragma GCC unroll 4
+    for (std::size_t q = 0; q < Q; ++q) {  // one after the other: see keep_in_register
       const Dword query = broadcast(queries[q] + quad * 4);
-      for (std::size_t v = 0; v < kVectors; ++v)
+#pragma GCC unroll 4
+      for (std::size_t v = 0; v < kVectors; ++v) {
         sums[q][v] = add_products(sums[q][v], codes[v], query);
+        keep_in_register(sums[q][v]);
+      }
     }
   }
   for (std::size_t q = 0; q < Q; ++q) store_sums(sums[q], corrections[q], products + q * stride);
@@ -170,29 +187,126 @@ void dots(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads
 }
 
 using Lanes = hn::CappedTag<std::int16_t, kBlockLanes>;
+constexpr Lanes kLanes;
+constexpr std::size_t kStep = hn::MaxLanes(kLanes);
+
+/// Bit i: is value i of kBlockLanes at least the limit?
+HWY_INLINE std::uint32_t bits_at_least(const std::int16_t* values, hn::Vec<Lanes> limits) {
+  std::uint32_t less = 0;
+  for (std::size_t i = 0; i < kBlockLanes; i += kStep) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(kLanes, hn::Lt(hn::LoadU(kLanes, values + i), limits), bytes);
+    less |= (bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8) << i;
+  }
+  return ~less & 0xFFFFU;
+}
 
 std::size_t find_at_least(const std::int16_t* values, std::size_t count, std::int16_t limit,
                           std::uint32_t* positions) {
-  constexpr Lanes lanes;
-  constexpr std::size_t kStep = hn::MaxLanes(lanes);
-  const auto limits = hn::Set(lanes, limit);
+  const auto limits = hn::Set(kLanes, limit);
   std::size_t found = 0;
-  for (std::size_t i = 0; i < count; i += kStep) {
-    if (hn::AllTrue(lanes, hn::Lt(hn::LoadU(lanes, values + i), limits))) continue;
-    for (std::size_t j = i; j < i + kStep; ++j)
-      if (values[j] >= limit) positions[found++] = static_cast<std::uint32_t>(j);
-  }
+  for (std::size_t i = 0; i < count; i += kBlockLanes)
+    for (std::uint32_t bits = bits_at_least(values + i, limits); bits != 0; bits &= bits - 1)
+      positions[found++] = static_cast<std::uint32_t>(i + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
   return found;
 }
 
-void block_maxima(const std::int16_t* values, std::size_t count, std::int16_t* maxima) {
-  constexpr Lanes lanes;
-  constexpr std::size_t kStep = hn::MaxLanes(lanes);
-  for (std::size_t i = 0; i < count; i += kBlockLanes) {
-    auto largest = hn::LoadU(lanes, values + i);
-    for (std::size_t j = kStep; j < kBlockLanes; j += kStep)
-      largest = hn::Max(largest, hn::LoadU(lanes, values + i + j));
-    maxima[i / kBlockLanes] = hn::GetLane(hn::MaxOfLanes(lanes, largest));
+/// How many of `count` values, at most 32767 * kStep, are at least the limit.
+HWY_INLINE std::size_t count_at_least(const std::int16_t* values, std::size_t count, int limit) {
+  const auto limits = hn::Set(kLanes, static_cast<std::int16_t>(limit));
+  auto less = hn::Zero(kLanes);
+  for (std::size_t i = 0; i < count; i += kBlockLanes)
+    for (std::size_t j = 0; j < kBlockLanes; j += kStep) {
+      const auto some = hn::LoadU(kLanes, values + i + j);
+      less = hn::Sub(less, hn::VecFromMask(kLanes, hn::Lt(some, limits)));
+    }
+  return count - static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(kLanes, less)));
+}
+
+/// Bisection by counting: exact, and with few branches that depend on the values.
+std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::size_t k) {
+  if (count > 32767) return scalar::kth_largest(values, count, k);
+  auto smallest = hn::LoadU(kLanes, values), largest = smallest;
+  for (std::size_t i = 0; i < count; i += kStep) {
+    const auto some = hn::LoadU(kLanes, values + i);
+    smallest = hn::Min(smallest, some);
+    largest = hn::Max(largest, some);
+  }
+  // At least k values are >= low, fewer are >= high.
+  int low = hn::GetLane(hn::MinOfLanes(kLanes, smallest));
+  int high = hn::GetLane(hn::MaxOfLanes(kLanes, largest)) + 1;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    const std::size_t enough = count_at_least(values, count, middle);
+    (enough >= k ? low : high) = middle;
+    if (enough == k) break;
+  }
+  // The smallest of those that are at least `low`.
+  const auto limits = hn::Set(kLanes, static_cast<std::int16_t>(low));
+  auto kth = hn::Set(kLanes, std::int16_t{32767});
+  for (std::size_t i = 0; i < count; i += kStep) {
+    const auto some = hn::LoadU(kLanes, values + i);
+    kth = hn::Min(kth, hn::IfThenElse(hn::Lt(some, limits), kth, some));
+  }
+  return hn::GetLane(hn::MinOfLanes(kLanes, kth));
+}
+
+template <std::size_t Q>
+void scan_with(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+               const ScanQuery* queries) {
+  const std::int8_t* codes[Q];
+  std::int32_t corrections[Q];
+  for (std::size_t q = 0; q < Q; ++q) {
+    codes[q] = queries[q].code;
+    corrections[q] = queries[q].offset;
+  }
+  for (std::size_t b = 0; b < block_count; ++b) {
+    HWY_ALIGN std::int16_t products[Q * kBlockLanes];
+    dots_of_block<Q>(blocks + b * quads * kRow, quads, codes, corrections, products, kBlockLanes);
+    for (std::size_t q = 0; q < Q; ++q) {
+      const std::int16_t* own = products + q * kBlockLanes;
+      queries[q].found[b] =
+          static_cast<std::uint16_t>(bits_at_least(own, hn::Set(kLanes, queries[q].limit)));
+      std::memcpy(queries[q].products + b * kBlockLanes, own, kBlockLanes * sizeof *own);
+    }
+  }
+}
+
+void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+          const ScanQuery* queries, std::size_t query_count) {
+  for (std::size_t q = 0; q < query_count; q += kAtOnce) {
+    const std::size_t count = HWY_MIN(query_count - q, kAtOnce);
+    if (count == 1) scan_with<1>(blocks, block_count, quads, queries + q);
+    if (count == 2) scan_with<2>(blocks, block_count, quads, queries + q);
+    if (count == 3) scan_with<3>(blocks, block_count, quads, queries + q);
+    if (count == 4) scan_with<4>(blocks, block_count, quads, queries + q);
+  }
+}
+
+/// Parts as in `sum_over`, so that the rounding is the same.
+void distances(const float* query, const float* const* rows, std::size_t count,
+               std::size_t dimension, float* results) {
+  using Floats = hn::CappedTag<float, kSumParts>;
+  constexpr Floats floats;
+  constexpr std::size_t kWidth = hn::MaxLanes(floats);
+  constexpr std::size_t kSums = kSumParts / kWidth;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* row = rows[i];
+    hn::Vec<Floats> sums[kSums];
+    for (std::size_t s = 0; s < kSums; ++s) sums[s] = hn::Zero(floats);
+    std::size_t d = 0;
+    for (; d + kSumParts <= dimension; d += kSumParts)
+      for (std::size_t s = 0; s < kSums; ++s) {
+        const auto difference = hn::Sub(hn::LoadU(floats, query + d + s * kWidth),
+                                        hn::LoadU(floats, row + d + s * kWidth));
+        sums[s] = hn::Add(sums[s], hn::Mul(difference, difference));
+      }
+    float parts[kSumParts];
+    for (std::size_t s = 0; s < kSums; ++s) hn::StoreU(sums[s], floats, parts + s * kWidth);
+    float sum = 0;
+    for (; d < dimension; ++d) sum += (query[d] - row[d]) * (query[d] - row[d]);
+    for (const float part : parts) sum += part;
+    results[i] = std::sqrt(sum);
   }
 }
 
@@ -209,9 +323,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace posevote {
 namespace {
+HWY_EXPORT(distances);
 HWY_EXPORT(dots);
 HWY_EXPORT(find_at_least);
-HWY_EXPORT(block_maxima);
+HWY_EXPORT(kth_largest);
+HWY_EXPORT(scan);
 }  // namespace
 
 void dots(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
@@ -224,8 +340,18 @@ std::size_t find_at_least(const std::int16_t* values, std::size_t count, std::in
   return HWY_DYNAMIC_DISPATCH(find_at_least)(values, count, limit, positions);
 }
 
-void block_maxima(const std::int16_t* values, std::size_t count, std::int16_t* maxima) {
-  HWY_DYNAMIC_DISPATCH(block_maxima)(values, count, maxima);
+std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::size_t k) {
+  return HWY_DYNAMIC_DISPATCH(kth_largest)(values, count, k);
+}
+
+void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+          const ScanQuery* queries, std::size_t query_count) {
+  HWY_DYNAMIC_DISPATCH(scan)(blocks, block_count, quads, queries, query_count);
+}
+
+void distances(const float* query, const float* const* rows, std::size_t count,
+               std::size_t dimension, float* results) {
+  HWY_DYNAMIC_DISPATCH(distances)(query, rows, count, dimension, results);
 }
 
 }  // namespace posevote

@@ -26,22 +26,46 @@ struct QueryGroup {
 void dots(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
           const QueryGroup& queries, std::int16_t* products, std::size_t stride);
 
+/// A query of `scan` and where the answers go.
+struct ScanQuery {
+  const std::int8_t* code;  ///< `quads` * 4 bytes, with the condition of `dots`
+  std::int32_t offset;      ///< 128 * sum of the code
+  std::int16_t limit;       ///< smallest product that is wanted
+  std::int16_t* products;   ///< room for the products of all codes, as `dots` writes them
+  std::uint16_t* found;     ///< for each block: bit i tells whether product i is wanted
+};
+
+/// As `dots`, and says which products are large enough.
+void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+          const ScanQuery* queries, std::size_t query_count);
+
 /// Writes the positions of all values >= limit in rising order to `positions` (room for `count`)
 /// and returns their number. `count` is a multiple of kBlockLanes.
 [[nodiscard]] std::size_t find_at_least(const std::int16_t* values, std::size_t count,
                                         std::int16_t limit, std::uint32_t* positions);
 
-/// The largest value of each kBlockLanes values in turn: `count` / kBlockLanes of them.
-void block_maxima(const std::int16_t* values, std::size_t count, std::int16_t* maxima);
+/// The k-th largest of `count` values. `count` is a multiple of kBlockLanes, 1 <= k <= count.
+[[nodiscard]] std::int16_t kth_largest(const std::int16_t* values, std::size_t count,
+                                       std::size_t k);
+
+/// Euclidean distances of `query` and `count` rows of `dimension` floats. Every instruction set
+/// gives the same numbers.
+void distances(const float* query, const float* const* rows, std::size_t count,
+               std::size_t dimension, float* results);
 
 /// The same in plain C++: what the kernels are compared with, and what a build without Highway
 /// runs.
 namespace scalar {
 void dots(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
           const QueryGroup& queries, std::int16_t* products, std::size_t stride);
+void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+          const ScanQuery* queries, std::size_t query_count);
 [[nodiscard]] std::size_t find_at_least(const std::int16_t* values, std::size_t count,
                                         std::int16_t limit, std::uint32_t* positions);
-void block_maxima(const std::int16_t* values, std::size_t count, std::int16_t* maxima);
+[[nodiscard]] std::int16_t kth_largest(const std::int16_t* values, std::size_t count,
+                                       std::size_t k);
+void distances(const float* query, const float* const* rows, std::size_t count,
+               std::size_t dimension, float* results);
 }  // namespace scalar
 
 }  // namespace posevote

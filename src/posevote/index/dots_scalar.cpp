@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
 
 #include "posevote/index/dots.hpp"
+#include "posevote/index/sums.hpp"
 
 namespace posevote {
 namespace scalar {
@@ -26,9 +30,32 @@ std::size_t find_at_least(const std::int16_t* values, std::size_t count, std::in
   return found;
 }
 
-void block_maxima(const std::int16_t* values, std::size_t count, std::int16_t* maxima) {
-  for (std::size_t i = 0; i < count; i += kBlockLanes)
-    maxima[i / kBlockLanes] = *std::max_element(values + i, values + i + kBlockLanes);
+std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::size_t k) {
+  std::vector<std::int16_t> copy(values, values + count);
+  const auto kth = copy.begin() + static_cast<std::ptrdiff_t>(k - 1);
+  std::nth_element(copy.begin(), kth, copy.end(), std::greater<>());
+  return *kth;
+}
+
+void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+          const ScanQuery* queries, std::size_t query_count) {
+  for (const ScanQuery* query = queries; query != queries + query_count; ++query) {
+    dots(blocks, block_count, quads, {{query->code}, 1}, query->products,
+         block_count * kBlockLanes);
+    std::fill(query->found, query->found + block_count, std::uint16_t{0});
+    for (std::size_t i = 0; i < block_count * kBlockLanes; ++i)
+      if (query->products[i] >= query->limit)
+        query->found[i / kBlockLanes] |= static_cast<std::uint16_t>(1U << i % kBlockLanes);
+  }
+}
+
+void distances(const float* query, const float* const* rows, std::size_t count,
+               std::size_t dimension, float* results) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* row = rows[i];
+    results[i] = std::sqrt(sum_over(
+        dimension, [=](std::size_t d) { return (query[d] - row[d]) * (query[d] - row[d]); }));
+  }
 }
 
 }  // namespace scalar
@@ -44,8 +71,18 @@ std::size_t find_at_least(const std::int16_t* values, std::size_t count, std::in
   return scalar::find_at_least(values, count, limit, positions);
 }
 
-void block_maxima(const std::int16_t* values, std::size_t count, std::int16_t* maxima) {
-  scalar::block_maxima(values, count, maxima);
+void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+          const ScanQuery* queries, std::size_t query_count) {
+  scalar::scan(blocks, block_count, quads, queries, query_count);
+}
+
+std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::size_t k) {
+  return scalar::kth_largest(values, count, k);
+}
+
+void distances(const float* query, const float* const* rows, std::size_t count,
+               std::size_t dimension, float* results) {
+  scalar::distances(query, rows, count, dimension, results);
 }
 #endif
 

@@ -2,30 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
-#ifdef POSEVOTE_WITH_HIGHWAY
-#include <hwy/targets.h>
-#endif
+
+#include "posevote/index/each_target.hpp"
 
 namespace posevote {
 namespace {
-
-/// Runs `test` once with each instruction set that this build and this CPU have.
-template <class Test>
-void for_each_target(const Test& test) {
-#ifdef POSEVOTE_WITH_HIGHWAY
-  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    test();
-    hwy::SetSupportedTargetsForTest(0);
-  }
-#else
-  test();
-#endif
-}
 
 struct Problem {
   std::size_t blocks, quads;
@@ -111,16 +96,103 @@ TEST(FindAtLeast, AgreesWithScalarCodeOnEveryTarget) {
   });
 }
 
-TEST(BlockMaxima, AgreeWithScalarCodeOnEveryTarget) {
+TEST(KthLargest, AgreesWithScalarCodeOnEveryTarget) {
   std::mt19937 random(4);
-  std::vector<std::int16_t> values(320);
-  for (auto& value : values) value = static_cast<std::int16_t>(random() % 65536 - 32768);
+  for (const int range : {65536, 7, 1}) {
+    std::vector<std::int16_t> values(320);
+    for (auto& value : values)
+      value = static_cast<std::int16_t>(static_cast<int>(random()) % range - (range > 9 ? 0 : 3));
+    if (range > 9) values[17] = 32767;
+    if (range > 9) values[18] = -32768;
+    for_each_target([&] {
+      for (const std::size_t count : {16, 48, 320})
+        for (std::size_t k = 1; k <= count; k += k < 5 ? 1 : 7)
+          EXPECT_EQ(kth_largest(values.data(), count, k),
+                    scalar::kth_largest(values.data(), count, k))
+              << "the " << k << "th of " << count;
+    });
+  }
+}
+
+TEST(KthLargest, CountsBeyondSixteenBits) {
+  std::vector<std::int16_t> values(80000, 5);
+  for (std::size_t i = 0; i < 40000; ++i) values[2 * i] = 6;
   for_each_target([&] {
-    std::vector<std::int16_t> expected(20), found(20);
-    scalar::block_maxima(values.data(), values.size(), expected.data());
-    block_maxima(values.data(), values.size(), found.data());
-    EXPECT_EQ(found, expected);
+    EXPECT_EQ(kth_largest(values.data(), values.size(), 40000), 6);
+    EXPECT_EQ(kth_largest(values.data(), values.size(), 40001), 5);
   });
+}
+
+TEST(Scan, AgreesWithScalarCodeOnEveryTarget) {
+  const Problem problem = random_problem(5, 16);
+  constexpr std::size_t kBlocks = 5;
+  struct Answer {
+    std::vector<std::int16_t> products = std::vector<std::int16_t>(kBlocks * kBlockLanes);
+    std::vector<std::uint16_t> found = std::vector<std::uint16_t>(kBlocks, std::uint16_t{9});
+  };
+  const auto queries = [&](std::vector<Answer>& answers) {
+    std::vector<ScanQuery> result;
+    for (std::size_t q = 0; q < answers.size(); ++q) {
+      std::int32_t offset = 0;
+      for (const std::int8_t value : problem.queries[q % kMaxQueries]) offset += 128 * value;
+      const auto limit = static_cast<std::int16_t>(q == 3 ? -32768 : 1000 * static_cast<int>(q));
+      result.push_back({problem.queries[q % kMaxQueries].data(), offset, limit,
+                        answers[q].products.data(), answers[q].found.data()});
+    }
+    return result;
+  };
+  for_each_target([&] {
+    for (std::size_t count = 0; count <= 9; ++count) {
+      std::vector<Answer> expected(count), found(count);
+      scalar::scan(problem.codes.data(), kBlocks, 16, queries(expected).data(), count);
+      scan(problem.codes.data(), kBlocks, 16, queries(found).data(), count);
+      for (std::size_t q = 0; q < count; ++q) {
+        EXPECT_EQ(found[q].products, expected[q].products) << q << " of " << count;
+        EXPECT_EQ(found[q].found, expected[q].found) << q << " of " << count;
+      }
+    }
+  });
+}
+
+TEST(Scan, FindsProductsAtTheLimitOnly) {
+  const Problem problem = random_problem(1, 4);
+  std::int16_t products[kBlockLanes];
+  dots(problem.codes.data(), 1, 4, problem.group(1), products, kBlockLanes);
+  std::int32_t offset = 0;
+  for (const std::int8_t value : problem.queries[0]) offset += 128 * value;
+  const std::int16_t largest = *std::max_element(products, products + kBlockLanes);
+  for_each_target([&] {
+    for (const int more : {0, 1}) {
+      std::uint16_t found = 7;
+      const ScanQuery query{problem.queries[0].data(), offset,
+                            static_cast<std::int16_t>(largest + more), products, &found};
+      scan(problem.codes.data(), 1, 4, &query, 1);
+      EXPECT_EQ(found == 0, more == 1);
+    }
+  });
+}
+
+TEST(Distances, AreTheSameNumbersOnEveryTarget) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> normal;
+  for (const std::size_t dimension : {1, 15, 16, 36, 64, 128, 131}) {
+    std::vector<std::vector<float>> rows(4, std::vector<float>(dimension));
+    for (auto& row : rows)
+      for (float& v : row) v = normal(random);
+    const float* pointers[] = {rows[1].data(), rows[2].data(), rows[0].data()};
+    float expected[3];
+    scalar::distances(rows[0].data(), pointers, 3, dimension, expected);
+    double squares = 0;
+    for (std::size_t d = 0; d < dimension; ++d)
+      squares += std::pow(double(rows[0][d]) - double(rows[1][d]), 2);
+    EXPECT_NEAR(expected[0], std::sqrt(squares), 1e-5);
+    EXPECT_EQ(expected[2], 0.0F);
+    for_each_target([&] {
+      float found[3];
+      distances(rows[0].data(), pointers, 3, dimension, found);
+      for (int i = 0; i < 3; ++i) EXPECT_EQ(found[i], expected[i]) << dimension;
+    });
+  }
 }
 
 }  // namespace

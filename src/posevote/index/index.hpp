@@ -7,16 +7,10 @@
 #include <vector>
 
 #include "posevote/core/options.hpp"
+#include "posevote/index/neighbors.hpp"
 #include "posevote/model/model_set.hpp"
 
 namespace posevote {
-
-/// A taught descriptor near a scene descriptor.
-struct Neighbor {
-  int view = -1;       ///< index into ModelSet::views(); -1: a feature of the impostor pool
-  int feature = -1;    ///< index into the view's features (or into the pool, counted through)
-  float distance = 0;  ///< Euclidean, descriptors have length 1, so in [0, 2]
-};
 
 struct IndexOptions {
   std::string method = "auto";  ///< "auto", "exact" or "approximate"
@@ -44,8 +38,7 @@ class Index {
   /// are known and differ are never neighbours. Equal distances: lower view, then lower feature
   /// first; the pool comes last. Distances are exact for every method. Throws
   /// Error{feature_mismatch} when the scene's descriptors have another length.
-  [[nodiscard]] virtual std::vector<std::vector<Neighbor>> search(const Features& scene,
-                                                                  int k) const = 0;
+  [[nodiscard]] virtual NeighborLists search(const Features& scene, int k) const = 0;
 
   /// What `load_index` needs to be ready without learning the lists again: about 2 bytes for each
   /// descriptor.

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "posevote/core/error.hpp"
+#include "posevote/index/each_target.hpp"
 
 namespace posevote {
 namespace {
@@ -83,8 +84,7 @@ std::vector<std::vector<Neighbor>> oracle(const ModelSet& models, const Features
 }
 
 /// Places may differ only where two distances agree to the rounding of floats.
-void expect_same(const std::vector<std::vector<Neighbor>>& found,
-                 const std::vector<std::vector<Neighbor>>& expected) {
+void expect_same(const NeighborLists& found, const std::vector<std::vector<Neighbor>>& expected) {
   ASSERT_EQ(found.size(), expected.size());
   constexpr float kRounding = 2e-6F;
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -114,8 +114,10 @@ TEST(ExactIndex, FindsTheNeighboursOfTheOracle) {
                    make_view(random_features(97, 64, 3, {1, -1, 0}))},
                   {random_features(20, 64, 4), random_features(31, 64, 5)});
   const Features scene = random_features(60, 64, 6, {0, 1, -1});
-  for (const int k : {1, 2, 17, 1000})
-    expect_same(make_index(models, exact())->search(scene, k), oracle(*models, scene, k));
+  for (const int k : {1, 2, 17, 1000}) {
+    const auto expected = oracle(*models, scene, k);
+    for_each_target([&] { expect_same(make_index(models, exact())->search(scene, k), expected); });
+  }
 }
 
 TEST(ExactIndex, WorksForOtherLengths) {
@@ -155,7 +157,7 @@ TEST(ExactIndex, AnswersNothingFromNothing) {
   EXPECT_EQ(make_index(make_models({}), exact())->search(scene, 3).size(), 4U);
   EXPECT_TRUE(make_index(make_models({}), exact())->search(scene, 3)[0].empty());
   const auto models = make_models({make_view(random_features(10, 64, 1))});
-  EXPECT_TRUE(make_index(models, exact())->search(Features(), 3).empty());
+  EXPECT_EQ(make_index(models, exact())->search(Features(), 3).size(), 0U);
   EXPECT_TRUE(make_index(models, exact())->search(scene, 0)[0].empty());
 }
 
@@ -173,7 +175,10 @@ TEST(ExactIndex, TakesHalfFloatsAndExtremeDescriptors) {
   const Features scene = pool;
   pool.descriptors.convertTo(pool.descriptors, CV_16F);
   const auto found = make_index(make_models({}, {pool}), exact())->search(scene, 1);
-  for (const auto& row : found) EXPECT_LT(row.at(0).distance, 1e-3);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    ASSERT_EQ(found[i].size(), 1U);
+    EXPECT_LT(found[i][0].distance, 1e-3);
+  }
 }
 
 TEST(ExactIndex, SurvivesValuesThatAreNotNumbers) {
@@ -229,8 +234,7 @@ IndexOptions approximate() {
 }
 
 /// Share of the first neighbours that are the right ones.
-double recall_first(const std::vector<std::vector<Neighbor>>& found,
-                    const std::vector<std::vector<Neighbor>>& expected) {
+double recall_first(const NeighborLists& found, const NeighborLists& expected) {
   double right = 0;
   for (std::size_t i = 0; i < found.size(); ++i)
     right += found[i].size() == expected[i].size() && found[i][0].view == expected[i][0].view &&
@@ -238,8 +242,7 @@ double recall_first(const std::vector<std::vector<Neighbor>>& found,
   return right / static_cast<double>(found.size());
 }
 
-void expect_equal(const std::vector<std::vector<Neighbor>>& a,
-                  const std::vector<std::vector<Neighbor>>& b) {
+void expect_equal(const NeighborLists& a, const NeighborLists& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].size(), b[i].size());
@@ -268,6 +271,30 @@ TEST(ApproximateIndex, FindsNearlyAllFirstNeighbours) {
                    models->views()[std::size_t(n.view)].view->features.descriptors, n.feature),
           2e-6);
     }
+  }
+}
+
+TEST(ApproximateIndex, AnswersTheSameOnEveryTarget) {
+  const auto views = clustered_views(30, 100);
+  const auto models = make_models(views);
+  const Features scene = seen_again(views);
+  const auto expected = make_index(models, approximate())->search(scene, 10);
+  for_each_target(
+      [&] { expect_equal(make_index(models, approximate())->search(scene, 10), expected); });
+}
+
+TEST(ApproximateIndex, AnswersTheSameForEachRowAlone) {
+  const auto views = clustered_views(30, 100);
+  const auto index = make_index(make_models(views), approximate());
+  const Features scene = seen_again(views);
+  const auto together = index->search(scene, 10);
+  for (std::size_t i = 0; i < scene.size(); i += 13) {
+    const auto row = static_cast<int>(i);
+    const Features one{{scene.keypoints[i]}, scene.descriptors.rowRange(row, row + 1)};
+    const auto alone = index->search(one, 10);
+    ASSERT_EQ(alone[0].size(), together[i].size());
+    for (std::size_t j = 0; j < alone[0].size(); ++j)
+      EXPECT_EQ(alone[0][j].feature, together[i][j].feature);
   }
 }
 

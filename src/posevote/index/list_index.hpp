@@ -31,8 +31,7 @@ class ListIndex : public Index {
   ListIndex(std::string signature, const IndexOptions& options, const Coder& coder,
             std::shared_ptr<const Quantizer> quantizer, std::vector<Part> parts);
 
-  [[nodiscard]] std::vector<std::vector<Neighbor>> search(const Features& scene,
-                                                          int k) const override;
+  [[nodiscard]] NeighborLists search(const Features& scene, int k) const override;
   [[nodiscard]] std::string save() const override;
   [[nodiscard]] IndexStatistics statistics() const override;
 

@@ -41,40 +41,6 @@ void move_centers(int dimension, const std::vector<std::uint16_t>& lists,
   }
 }
 
-/// Positions (below 65536) of the `wanted` largest values, the largest first; ties: the lower.
-/// A limit that surely lets that many through is found from the maxima of blocks.
-class Largest {
- public:
-  void find(const std::int16_t* values, std::size_t count, std::size_t wanted,
-            std::uint16_t* result) {
-    const std::size_t padded = (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
-    maxima_.resize(padded / kBlockLanes);
-    positions_.resize(padded);
-    std::int16_t limit = std::numeric_limits<std::int16_t>::min();
-    if (maxima_.size() > wanted) {
-      block_maxima(values, padded, maxima_.data());
-      const auto nth = maxima_.begin() + static_cast<std::ptrdiff_t>(wanted - 1);
-      std::nth_element(maxima_.begin(), nth, maxima_.end(), std::greater<>());
-      limit = *nth;
-    }
-    positions_.resize(find_at_least(values, padded, limit, positions_.data()));
-    // Value and position in one number, so that larger is better.
-    for (std::uint32_t& position : positions_)
-      position = static_cast<std::uint32_t>(values[position] + 32768) << 16 | (65535 - position);
-    const auto last = positions_.begin() + static_cast<std::ptrdiff_t>(wanted);
-    if (positions_.size() > wanted)
-      std::nth_element(positions_.begin(), last - 1, positions_.end(), std::greater<>());
-    std::iter_swap(positions_.begin(), std::max_element(positions_.begin(), last));
-    std::transform(positions_.begin(), last, result, [](std::uint32_t key) {
-      return static_cast<std::uint16_t>(65535 - (key & 65535));
-    });
-  }
-
- private:
-  std::vector<std::int16_t> maxima_;
-  std::vector<std::uint32_t> positions_;
-};
-
 /// A scale at which the codes of nearly all rows, less their centres, are neither cut nor
 /// shortened.
 float find_member_scale(const Coder& coder, const Centers& centers,
@@ -139,7 +105,8 @@ void Centers::assign(const Coder& coder, std::size_t row_count, const ReadRow& r
   }
   const std::size_t groups = (row_count + kMaxQueries - 1) / kMaxQueries;
   parallel(threads, groups, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> buffer;
+    std::vector<float> values;
+    Buffer buffer;
     std::vector<std::int8_t> codes(kMaxQueries * coder.quads() * 4);
     for (std::size_t first = begin * kMaxQueries; first < std::min(row_count, end * kMaxQueries);
          first += kMaxQueries) {
@@ -147,27 +114,45 @@ void Centers::assign(const Coder& coder, std::size_t row_count, const ReadRow& r
       group.count = std::min(kMaxQueries, row_count - first);
       for (std::size_t q = 0; q < group.count; ++q) {
         group.codes[q] = &codes[q * coder.quads() * 4];
-        coder.encode_query(row(first + q, buffer), &codes[q * coder.quads() * 4]);
+        coder.encode_query(row(first + q, values), &codes[q * coder.quads() * 4]);
       }
-      nearest(coder, group, 1, lists + first);
+      Probe found[kMaxQueries];
+      nearest(coder, group, 1, buffer, found);
+      for (std::size_t q = 0; q < group.count; ++q) lists[first + q] = found[q].list;
     }
   });
 }
 
 void Centers::nearest(const Coder& coder, const QueryGroup& queries, std::size_t probes,
-                      std::uint16_t* lists) const {
+                      Buffer& buffer, Probe* found) const {
   probes = std::min(probes, this->lists());
   if (count_ <= 1) {
-    std::fill(lists, lists + queries.count, std::uint16_t{0});
+    std::fill(found, found + queries.count, Probe{0, 0});
     return;
   }
-  std::vector<std::int16_t> products(queries.count * padded());
-  Largest largest;
+  auto& [products, positions] = buffer;
+  products.resize(queries.count * padded());
+  positions.resize(padded());
   dots(codes_.data(), padded() / kBlockLanes, coder.quads(), queries, products.data(), padded());
-  for (std::size_t q = 0; q < queries.count; ++q) {
+  for (std::size_t q = 0; q < queries.count; ++q, found += probes) {
     std::int16_t* values = &products[q * padded()];
     std::fill(values + count_, values + padded(), std::numeric_limits<std::int16_t>::min());
-    largest.find(values, count_, probes, lists + q * probes);
+    const std::int16_t last = kth_largest(values, padded(), probes);
+    const std::size_t enough = find_at_least(values, padded(), last, positions.data());
+    std::size_t surplus = enough - probes;  // of the equally near ones at the end
+    std::size_t next = probes;
+    for (std::size_t i = enough; i-- > 0;) {
+      const std::uint32_t position = positions[i];
+      if (surplus > 0 && values[position] == last) {
+        --surplus;
+        continue;
+      }
+      found[--next] = {static_cast<std::uint16_t>(position), values[position]};
+    }
+    const auto best = std::max_element(found, found + probes, [](const Probe& a, const Probe& b) {
+      return a.product < b.product;
+    });
+    std::rotate(found, best, best + 1);
   }
 }
 

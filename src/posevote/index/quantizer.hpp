@@ -51,10 +51,22 @@ class Centers {
   void assign(const Coder& coder, std::size_t row_count, const ReadRow& row, std::uint16_t* lists,
               int threads) const;
 
-  /// The min(probes, lists()) nearest lists of each query, the nearest first, the rest in no
-  /// meaningful but deterministic order. `lists`: queries.count rows of that many.
-  void nearest(const Coder& coder, const QueryGroup& queries, std::size_t probes,
-               std::uint16_t* lists) const;
+  /// A list and the scalar product of the codes of a query and of its centre (0 without centres).
+  struct Probe {
+    std::uint16_t list;
+    std::int16_t product;
+  };
+
+  /// Memory that `nearest` uses again.
+  struct Buffer {
+    std::vector<std::int16_t> products;
+    std::vector<std::uint32_t> positions;
+  };
+
+  /// The min(probes, lists()) nearest lists of each query, the nearest first, the others in rising
+  /// order. `found`: queries.count rows of that many.
+  void nearest(const Coder& coder, const QueryGroup& queries, std::size_t probes, Buffer& buffer,
+               Probe* found) const;
 
  private:
   [[nodiscard]] std::size_t padded() const noexcept {

@@ -58,13 +58,18 @@ TEST(Centers, NameTheNearestListsFirstOfAll) {
   const Coder coder(kDimension);
   const auto rows = grouped_rows(400, 100);
   const Centers centers = Centers::train(coder, 90, rows.size(), reader(rows), 1);
+  Centers::Buffer buffer;
   for (const std::size_t probes : {1, 3, 40, 90, 1000}) {
     const std::size_t expected = std::min<std::size_t>(probes, 90);
     for (std::size_t i = 0; i < rows.size(); i += 37) {
       std::vector<std::int8_t> code(coder.quads() * 4);
       coder.encode_query(rows[i].data(), code.data());
-      std::vector<std::uint16_t> lists(expected);
-      centers.nearest(coder, {{code.data()}, 1}, probes, lists.data());
+      std::vector<Centers::Probe> found(expected);
+      centers.nearest(coder, {{code.data()}, 1}, probes, buffer, found.data());
+      std::vector<std::uint16_t> lists;
+      for (const Centers::Probe& probe : found) lists.push_back(probe.list);
+      EXPECT_TRUE(std::is_sorted(lists.begin() + 1, lists.end()));
+      for (const Centers::Probe& probe : found) EXPECT_LE(probe.product, found[0].product);
       const auto near = [&](std::size_t list) {
         return product(rows[i].data(), centers.center(list), kDimension);
       };
@@ -78,6 +83,19 @@ TEST(Centers, NameTheNearestListsFirstOfAll) {
       }
     }
   }
+}
+
+TEST(Centers, NameEquallyNearListsOnce) {
+  const Coder coder(kDimension);
+  const auto one = grouped_rows(1, 1);
+  const std::vector<std::vector<float>> rows(40, one[0]);
+  const Centers centers = Centers::train(coder, 20, rows.size(), reader(rows), 1);
+  std::vector<std::int8_t> code(coder.quads() * 4);
+  coder.encode_query(rows[0].data(), code.data());
+  Centers::Buffer buffer;
+  std::vector<Centers::Probe> found(7);
+  centers.nearest(coder, {{code.data()}, 1}, 7, buffer, found.data());
+  for (std::uint16_t i = 0; i < 7; ++i) EXPECT_EQ(found[i].list, i);
 }
 
 TEST(Centers, WithoutTrainingAreOneList) {

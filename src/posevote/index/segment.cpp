@@ -43,6 +43,7 @@ void Segment::fill(const Coder& coder, const Centers& centers, std::size_t sign)
   for (const Unit& unit : units_)
     for (std::size_t i = 0; i < unit.size(); ++i)
       if (sign_class(unit.signs[i]) == sign) ++next[unit.lists[i]];
+  lists.sizes = next;
   lists.starts.push_back(0);
   for (std::uint32_t& count : next) {
     const std::uint32_t start = lists.starts.back();
@@ -82,7 +83,7 @@ std::size_t Segment::bytes() const noexcept {
   std::size_t sum = 0;
   for (const Lists& lists : lists_)
     sum += lists.codes.capacity() + lists.entries.capacity() * sizeof(Entry) +
-           lists.starts.capacity() * sizeof(std::uint32_t);
+           (lists.starts.capacity() + lists.sizes.capacity()) * sizeof(std::uint32_t);
   for (const Unit& unit : units_)
     sum += sizeof(Unit) + unit.signs.capacity() + unit.lists.capacity() * sizeof(std::uint16_t);
   return sum;

@@ -45,6 +45,7 @@ class Segment {
   /// Code i of list l is entry starts[l] * kBlockLanes + i.
   struct Lists {
     std::vector<std::uint32_t> starts;  ///< first block of each list, and the end
+    std::vector<std::uint32_t> sizes;   ///< number of codes of each list
     std::vector<std::uint8_t> codes;
     std::vector<Entry> entries;
   };

@@ -13,7 +13,7 @@ void MatchOptions::describe(OptionList& list) {
            "descriptor of another object.");
 }
 
-Neighborhood::Neighborhood(std::vector<std::vector<Neighbor>> neighbors, const ModelSet& models,
+Neighborhood::Neighborhood(NeighborLists neighbors, const ModelSet& models,
                            std::vector<char> related)
     : neighbors_(std::move(neighbors)),
       models_(models),
@@ -43,7 +43,7 @@ bool Neighborhood::shows_same_spot(const Neighbor& neighbor, int view, int featu
 }
 
 Reference Neighborhood::reference(int scene_feature, int view, int feature) const {
-  const auto& list = neighbors_[static_cast<std::size_t>(scene_feature)];
+  const NeighborList list = neighbors_[static_cast<std::size_t>(scene_feature)];
   const double population = std::max(1.0, all_features_);
   for (const Neighbor& neighbor : list)
     if (!shows_same_spot(neighbor, view, feature)) return {neighbor.distance, 1 / population};

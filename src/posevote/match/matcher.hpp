@@ -40,15 +40,14 @@ class Neighborhood {
  public:
   /// `related[a * objects + b]` is non-zero when object b looks like a in parts: its descriptors
   /// are then no reference for a. Empty: none are related.
-  Neighborhood(std::vector<std::vector<Neighbor>> neighbors, const ModelSet& models,
-               std::vector<char> related = {});
+  Neighborhood(NeighborLists neighbors, const ModelSet& models, std::vector<char> related = {});
 
-  [[nodiscard]] const std::vector<std::vector<Neighbor>>& neighbors() const { return neighbors_; }
+  [[nodiscard]] const NeighborLists& neighbors() const { return neighbors_; }
   [[nodiscard]] Reference reference(int scene_feature, int view, int feature) const;
   [[nodiscard]] bool related(int object, int other) const;
 
  private:
-  std::vector<std::vector<Neighbor>> neighbors_;
+  NeighborLists neighbors_;
   const ModelSet& models_;
   std::vector<char> related_;
   double all_features_ = 0;  ///< number of descriptors, with the pool

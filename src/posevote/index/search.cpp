@@ -1,0 +1,360 @@
+#include "posevote/index/search.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <opencv2/core/hal/hal.hpp>
+
+#include "posevote/index/shortlist.hpp"
+
+namespace posevote {
+namespace {
+
+/// What products miss when lengths are not quite 1, as those of half floats.
+constexpr float kLengthError = 1e-3F;
+/// Distance to which the rounding of a query is reckoned to matter; see Search::encode.
+constexpr float kUsualDistance = 0.5F;
+constexpr std::size_t kBatch = 1024;      // their shortlists fit in a cache
+constexpr std::size_t kChunkBlocks = 64;  // 64 KB of codes for 64 dimensions: half of an L2 cache
+constexpr std::size_t kChunk = kChunkBlocks * kBlockLanes;
+constexpr std::size_t kAhead = 2;  ///< queries whose rows are on their way while one is ranked
+
+bool before(const Neighbor& a, const Neighbor& b) {
+  if (a.distance != b.distance) return a.distance < b.distance;
+  // The pool, -1, becomes the largest view.
+  if (a.view != b.view) return static_cast<unsigned>(a.view) < static_cast<unsigned>(b.view);
+  return a.feature < b.feature;
+}
+
+std::int16_t clamp16(float v) {
+  return static_cast<std::int16_t>(std::clamp(v, -32768.0F, 32767.0F));
+}
+
+/// Keys are kKeyScale * product: key = slope * (product of codes) + base.
+struct Query {
+  QueryCode code;
+  float shift = 0;  ///< added to the key of every candidate
+  float error = 0;  ///< of a product
+};
+
+/// A list that is to be scanned for a query.
+struct Visit {
+  std::uint32_t query;
+  float base;  ///< key of a member whose code is 0
+};
+
+/// Codes of one part and sign among all places.
+struct Source {
+  const ListIndex::Part* part;
+  std::size_t sign;
+  std::uint32_t first_place;
+  bool some_absent;
+};
+
+class Search {
+ public:
+  Search(const ListIndex& index, const Features& scene, std::size_t k)
+      : index_(index),
+        coder_(index.coder()),
+        scene_(scene),
+        k_(k),
+        certain_(index.options().method == "exact"),
+        code_bytes_(coder_.quads() * 4),
+        capacity_((4 * k + 128 + kBlockLanes - 1) / kBlockLanes * kBlockLanes) {
+    std::uint32_t place = 0;
+    for (const auto& part : index_.parts()) {
+      residual_ = std::max(
+          residual_, certain_ ? part.segment->largest_residual() : part.segment->usual_residual());
+      const bool some_absent = std::any_of(part.numbers.begin(), part.numbers.end(),
+                                           [](const auto& number) { return !number.present; });
+      for (std::size_t sign = 0; sign < kSigns; ++sign) {
+        sources_.push_back({&part, sign, place, some_absent});
+        place += static_cast<std::uint32_t>(part.segment->lists(sign).entries.size());
+      }
+    }
+  }
+
+  void run(std::size_t begin, std::size_t end, NeighborLists& result) {
+    begin_ = begin;
+    count_ = end - begin;
+    encode();
+    for (std::size_t sign = 0; sign < kSigns; ++sign) look_through(sign);
+    for (std::size_t q = 0; q < std::min(kAhead, count_); ++q) prepare_rank(q);
+    for (std::size_t q = 0; q < count_; ++q) {
+      if (q + kAhead < count_) prepare_rank(q + kAhead);
+      rank(q, result);
+    }
+  }
+
+ private:
+  [[nodiscard]] const float* row(std::size_t q) const {
+    return scene_.descriptors.ptr<float>(static_cast<int>(begin_ + q));
+  }
+
+  /// A product of codes is off by e * x, e what the rounding of the query lost and x the taught
+  /// descriptor. As x = query + difference, most of it is e * query, which is known and put right,
+  /// except for a search that has to be certain.
+  void encode() {
+    codes_.resize(count_ * code_bytes_);
+    queries_.resize(count_);
+    keys_.resize(count_ * capacity_);
+    places_.resize(count_ * capacity_);
+    shortlists_.clear();
+    shortlists_.reserve(count_);
+    for (std::size_t q = 0; q < count_; ++q) {
+      Query& query = queries_[q];
+      query.code = coder_.encode_query(row(q), &codes_[q * code_bytes_]);
+      const float error =
+          coder_.error(query.code.residual, residual_, certain_ ? 1.0F : kUsualDistance, certain_);
+      query.error = certain_ ? error + kLengthError : error;
+      query.shift = certain_ ? 0.0F : kKeyScale * query.code.lost;
+      // Two errors meet in a comparison: they add, or, as chance has it, their squares do.
+      const float margin = query.error * (certain_ ? 2.0F : 1.42F);
+      shortlists_.emplace_back(k_, static_cast<int>(kKeyScale * margin) + 1, &keys_[q * capacity_],
+                               &places_[q * capacity_], capacity_);
+    }
+  }
+
+  /// Searches the lists of one sign for all queries that may have neighbours there. The nearest
+  /// list of each comes first: its limit keeps most of the others' codes out.
+  void look_through(std::size_t sign) {
+    seekers_.clear();
+    for (std::size_t q = 0; q < count_; ++q) {
+      const std::size_t own = sign_class(scene_.keypoints[begin_ + q].laplacian);
+      if (own == sign || own == 1 || sign == 1) seekers_.push_back(static_cast<std::uint32_t>(q));
+    }
+    const Centers& centers = (*index_.quantizer())[sign];
+    const std::size_t probes =
+        std::min(static_cast<std::size_t>(index_.options().probes), centers.lists());
+    probes_.resize(seekers_.size() * probes);
+    for (std::size_t first = 0; first < seekers_.size(); first += kMaxQueries) {
+      QueryGroup group{};
+      group.count = std::min(kMaxQueries, seekers_.size() - first);
+      for (std::size_t i = 0; i < group.count; ++i)
+        group.codes[i] = &codes_[seekers_[first + i] * code_bytes_];
+      centers.nearest(coder_, group, probes, buffer_, &probes_[first * probes]);
+    }
+    visit(sign, probes, 0, 1);
+    for (const std::uint32_t q : seekers_) shortlists_[q].tighten();
+    visit(sign, probes, 1, probes);
+  }
+
+  /// Scans columns [first, last) of `probes_`, list by list, so that each is read only once.
+  void visit(std::size_t sign, std::size_t probes, std::size_t first, std::size_t last) {
+    const std::size_t list_count = (*index_.quantizer())[sign].lists();
+    ends_.assign(list_count + 1, 0);
+    for (std::size_t i = 0; i < seekers_.size(); ++i)
+      for (std::size_t p = first; p < last; ++p) ++ends_[probes_[i * probes + p].list + 1U];
+    for (std::size_t l = 0; l < list_count; ++l) ends_[l + 1] += ends_[l];
+    visits_.resize(ends_.back());
+    for (std::size_t i = 0; i < seekers_.size(); ++i) {
+      const Query& query = queries_[seekers_[i]];
+      const float slope = kKeyScale / (query.code.scale * kUnitScale);
+      for (std::size_t p = first; p < last; ++p) {
+        const Centers::Probe& probe = probes_[i * probes + p];
+        visits_[ends_[probe.list]++] = {seekers_[i],
+                                        slope * static_cast<float>(probe.product) + query.shift};
+      }
+    }
+    // Now ends_[l] is the end of list l, and the end of the one before is its beginning.
+    for (std::size_t l = 0; l < list_count; ++l) {
+      const std::size_t begin = l == 0 ? 0 : ends_[l - 1];
+      if (begin == ends_[l]) continue;
+      for (std::size_t s = sign; s < sources_.size(); s += kSigns)
+        scan_list(sources_[s], l, visits_.data() + begin, ends_[l] - begin);
+    }
+  }
+
+  void scan_list(const Source& source, std::size_t list, const Visit* visits, std::size_t count) {
+    const Segment::Lists& lists = source.part->segment->lists(source.sign);
+    const std::size_t begin = lists.starts[list] * kBlockLanes;
+    const std::size_t end = begin + lists.sizes[list];
+    const float member_scale = (*index_.quantizer())[source.sign].member_scale();
+    for (std::size_t chunk = begin; chunk < end; chunk += kChunk) {
+      const std::size_t codes = std::min(kChunk, end - chunk);
+      for (std::size_t v = 0; v < count;) {
+        std::size_t used = 0;
+        for (; v < count && used < kMaxQueries; ++v)
+          used += prepare_scan(visits[v], member_scale, used) ? 1 : 0;
+        scan(&lists.codes[chunk / kBlockLanes * coder_.block_bytes()],
+             (codes + kBlockLanes - 1) / kBlockLanes, coder_.quads(), scans_.data(), used);
+        for (std::size_t i = 0; i < used; ++i) collect(source, chunk, codes, i, member_scale);
+      }
+    }
+  }
+
+  /// False when no product of codes can be large enough.
+  bool prepare_scan(const Visit& visit, float member_scale, std::size_t slot) {
+    const Query& query = queries_[visit.query];
+    const float lowest = (static_cast<float>(shortlists_[visit.query].limit()) - visit.base) *
+                         query.code.scale * member_scale * (1 / kKeyScale);
+    if (lowest > 32767) return false;
+    scans_[slot] = {&codes_[visit.query * code_bytes_], query.code.offset, clamp16(lowest),
+                    &products_[slot * kChunk], &found_[slot * kChunkBlocks]};
+    scanned_[slot] = visit;
+    return true;
+  }
+
+  /// Takes what was found among the `count` codes from `first_entry` on.
+  void collect(const Source& source, std::size_t first_entry, std::size_t count, std::size_t slot,
+               float member_scale) {
+    const Visit& visit = scanned_[slot];
+    const std::int16_t* products = &products_[slot * kChunk];
+    Shortlist& shortlist = shortlists_[visit.query];
+    const float slope = kKeyScale / (queries_[visit.query].code.scale * member_scale);
+    const auto add = [&](std::size_t i) {
+      shortlist.add(clamp16(slope * static_cast<float>(products[i]) + visit.base),
+                    source.first_place + static_cast<std::uint32_t>(first_entry + i));
+    };
+    if (shortlist.limit() == Shortlist::kNoLimit && !source.some_absent && count > k_) {
+      const float margin = static_cast<float>(shortlist.margin()) / slope;
+      for (const std::uint32_t i : find_best(slot, count, margin)) add(i);
+      return;
+    }
+    std::uint16_t* found = &found_[slot * kChunkBlocks];
+    const std::size_t blocks = (count + kBlockLanes - 1) / kBlockLanes;
+    if (count % kBlockLanes != 0)
+      found[blocks - 1] &= static_cast<std::uint16_t>((1U << count % kBlockLanes) - 1);
+    constexpr std::size_t kWord = 4;  // blocks in one word of bits
+    std::fill(found + blocks, found + (blocks + kWord - 1) / kWord * kWord, std::uint16_t{0});
+    for (std::size_t block = 0; block < blocks; block += kWord) {
+      std::uint64_t bits;
+      std::memcpy(&bits, found + block, sizeof bits);
+      for (; bits != 0; bits &= bits - 1) {
+        const std::size_t i =
+            block * kBlockLanes + static_cast<std::size_t>(std::countr_zero(bits));
+        if (!source.some_absent || is_present(source, first_entry + i)) add(i);
+      }
+    }
+  }
+
+  /// Which of the first codes seen by a query may be among the k best of them.
+  const std::vector<std::uint32_t>& find_best(std::size_t slot, std::size_t count, float margin) {
+    std::int16_t* products = &products_[slot * kChunk];
+    const std::size_t padded = (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+    std::fill(products + count, products + padded, std::int16_t{-32768});
+    const float limit = static_cast<float>(kth_largest(products, padded, k_)) - margin - 1;
+    best_.resize(padded);
+    best_.resize(
+        find_at_least(products, padded, clamp16(std::max(limit, -32767.0F)), best_.data()));
+    return best_;
+  }
+
+  [[nodiscard]] static bool is_present(const Source& source, std::size_t entry) {
+    const Segment::Lists& lists = source.part->segment->lists(source.sign);
+    return source.part->numbers[lists.entries[entry].unit].present;
+  }
+
+  /// Where the descriptor of a candidate is.
+  struct Candidate {
+    const uchar* row;
+    bool half;  ///< CV_16F, else CV_32F
+    std::int16_t key;
+    int view, feature;
+  };
+
+  /// Candidates of a query whose rows, scattered over the memory, have been asked for: first the k
+  /// best by their codes.
+  void prepare_rank(std::size_t q) {
+    Shortlist& shortlist = shortlists_[q];
+    const int kth = shortlist.tighten();
+    std::vector<Candidate>& candidates = prepared_[q % prepared_.size()];
+    candidates.clear();
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < shortlist.size(); ++i) {
+      candidates.push_back(locate(shortlist.key(i), shortlist.place(i)));
+      if (candidates.back().key >= kth) std::swap(candidates[best++], candidates.back());
+    }
+  }
+
+  [[nodiscard]] Candidate locate(std::int16_t key, std::uint32_t place) const {
+    std::size_t s = sources_.size() - 1;
+    while (sources_[s].first_place > place) --s;
+    const Source& source = sources_[s];
+    const Segment& segment = *source.part->segment;
+    const Segment::Entry entry = segment.lists(source.sign).entries[place - source.first_place];
+    const ListIndex::Number& number = source.part->numbers[entry.unit];
+    const cv::Mat& rows = segment.units()[entry.unit].descriptors;
+    const uchar* row = rows.data + rows.step.p[0] * entry.feature;
+    const std::size_t bytes = rows.elemSize() * static_cast<std::size_t>(rows.cols);
+    for (std::size_t offset = 0; offset < bytes; offset += 64) __builtin_prefetch(row + offset);
+    return {row, rows.depth() == CV_16F, key, number.view,
+            number.first + static_cast<int>(entry.feature)};
+  }
+
+  /// The k best of the candidates of a query by exact distance. Of those that are not among the k
+  /// best by their codes, only those are measured that the error of the codes leaves a chance.
+  void rank(std::size_t q, NeighborLists& result) {
+    std::vector<Candidate>& candidates = prepared_[q % prepared_.size()];
+    const std::size_t wanted = std::min(k_, candidates.size());
+    ranked_.clear();
+    measure(q, candidates.data(), wanted);
+    float farthest = 0;
+    for (const Neighbor& neighbor : ranked_) farthest = std::max(farthest, neighbor.distance);
+    const float lowest = kKeyScale * (1 - farthest * farthest / 2 - queries_[q].error) - 1;
+    const auto end =
+        std::partition(candidates.begin() + static_cast<std::ptrdiff_t>(wanted), candidates.end(),
+                       [=](const Candidate& c) { return static_cast<float>(c.key) >= lowest; });
+    measure(q, candidates.data() + wanted,
+            static_cast<std::size_t>(end - candidates.begin()) - wanted);
+    std::partial_sort_copy(ranked_.begin(), ranked_.end(), result.fill(begin_ + q, wanted),
+                           result.fill(begin_ + q, wanted) + wanted, before);
+  }
+
+  void measure(std::size_t q, const Candidate* candidates, std::size_t count) {
+    rows_.resize(count);
+    distances_.resize(count);
+    const auto size = static_cast<std::size_t>(coder_.dimension());
+    floats_.resize(count * size);
+    for (std::size_t i = 0; i < count; ++i) {
+      rows_[i] = reinterpret_cast<const float*>(candidates[i].row);
+      if (!candidates[i].half) continue;
+      cv::hal::cvt16f32f(reinterpret_cast<const cv::float16_t*>(candidates[i].row),
+                         &floats_[i * size], coder_.dimension());
+      rows_[i] = &floats_[i * size];
+    }
+    distances(row(q), rows_.data(), count, size, distances_.data());
+    for (std::size_t i = 0; i < count; ++i)
+      ranked_.push_back({candidates[i].view, candidates[i].feature, distances_[i]});
+  }
+
+  const ListIndex& index_;
+  const Coder& coder_;
+  const Features& scene_;
+  std::size_t k_, begin_ = 0, count_ = 0;
+  bool certain_;
+  std::size_t code_bytes_, capacity_;
+  float residual_ = 0;
+  std::vector<Source> sources_;
+  std::vector<std::int8_t> codes_;
+  std::vector<Query> queries_;
+  std::vector<Shortlist> shortlists_;
+  std::vector<std::int16_t> keys_;     ///< lent to the shortlists
+  std::vector<std::uint32_t> places_;  ///< lent to the shortlists
+  std::vector<std::uint32_t> seekers_, ends_;
+  std::vector<Centers::Probe> probes_;
+  Centers::Buffer buffer_;
+  std::vector<Visit> visits_;
+  std::array<ScanQuery, kMaxQueries> scans_;
+  std::array<Visit, kMaxQueries> scanned_;
+  std::array<std::uint16_t, kMaxQueries * kChunkBlocks> found_;
+  std::vector<std::uint32_t> best_;
+  std::array<std::int16_t, kMaxQueries * kChunk> products_;
+  std::array<std::vector<Candidate>, kAhead + 1> prepared_;
+  std::vector<const float*> rows_;
+  std::vector<float> distances_, floats_;
+  std::vector<Neighbor> ranked_;
+};
+
+}  // namespace
+
+void search_rows(const ListIndex& index, const Features& scene, std::size_t k, std::size_t begin,
+                 std::size_t end, NeighborLists& result) {
+  if (begin == end) return;
+  const auto search = std::make_unique<Search>(index, scene, k);
+  for (std::size_t first = begin; first < end; first += kBatch)
+    search->run(first, std::min(end, first + kBatch), result);
+}
+
+}  // namespace posevote

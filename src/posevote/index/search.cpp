@@ -15,6 +15,7 @@ namespace {
 constexpr float kLengthError = 1e-3F;
 /// Distance to which the rounding of a query is reckoned to matter; see Search::encode.
 constexpr float kUsualDistance = 0.5F;
+constexpr float kAllKeys = 65535;         // a margin that lets all through
 constexpr std::size_t kBatch = 1024;      // their shortlists fit in a cache
 constexpr std::size_t kChunkBlocks = 64;  // 64 KB of codes for 64 dimensions: half of an L2 cache
 constexpr std::size_t kChunk = kChunkBlocks * kBlockLanes;
@@ -27,8 +28,9 @@ bool before(const Neighbor& a, const Neighbor& b) {
   return a.feature < b.feature;
 }
 
+/// The lowest for what is not a number.
 std::int16_t clamp16(float v) {
-  return static_cast<std::int16_t>(std::clamp(v, -32768.0F, 32767.0F));
+  return static_cast<std::int16_t>(v > -32768.0F ? std::min(v, 32767.0F) : -32768.0F);
 }
 
 /// Keys are kKeyScale * product: key = slope * (product of codes) + base.

@@ -113,8 +113,8 @@ class Search {
       query.shift = certain_ ? 0.0F : kKeyScale * query.code.lost;
       // Two errors meet in a comparison: they add, or, as chance has it, their squares do.
       const float margin = query.error * (certain_ ? 2.0F : 1.42F);
-      shortlists_.emplace_back(k_, static_cast<int>(kKeyScale * margin) + 1, &keys_[q * capacity_],
-                               &places_[q * capacity_], capacity_);
+      shortlists_.emplace_back(k_, static_cast<int>(std::min(kAllKeys, kKeyScale * margin)) + 1,
+                               &keys_[q * capacity_], &places_[q * capacity_], capacity_);
     }
   }
 

@@ -7,8 +7,12 @@
 namespace posevote::cli {
 
 void add_commands(CLI::App& app, CommandContext& context) {
-  for (const auto add : {add_teach, add_recognize, add_objects, add_sync, add_evaluate, add_dataset,
-                         add_bench, add_options, add_completion, add_man})
+  for (const auto add : {add_teach, add_recognize, add_objects, add_sync}) add(app, context);
+#ifdef POSEVOTE_WITH_SERVER
+  add_serve(app, context);
+#endif
+  for (const auto add :
+       {add_evaluate, add_dataset, add_bench, add_options, add_completion, add_man})
     add(app, context);
 }
 

@@ -13,6 +13,7 @@ void add_man(CLI::App& app, CommandContext& context);
 void add_objects(CLI::App& app, CommandContext& context);
 void add_options(CLI::App& app, CommandContext& context);
 void add_recognize(CLI::App& app, CommandContext& context);
+void add_serve(CLI::App& app, CommandContext& context);
 void add_sync(CLI::App& app, CommandContext& context);
 void add_teach(CLI::App& app, CommandContext& context);
 

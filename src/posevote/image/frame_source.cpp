@@ -100,14 +100,13 @@ class VideoSource : public FrameSource {
 
 class CameraSource : public FrameSource {
  public:
-  CameraSource(cv::VideoCapture capture, int number)
-      : capture_(std::move(capture)), number_(number) {}
+  CameraSource(cv::VideoCapture capture, std::string name)
+      : capture_(std::move(capture)), name_(std::move(name)) {}
 
   std::optional<Frame> next() override {
     Frame frame;
     if (!capture_.read(frame.image) || frame.image.empty())
-      throw Error(ErrorCode::io, "camera " + std::to_string(number_) +
-                                     " gives no more frames; is it still connected?");
+      throw Error(ErrorCode::io, name_ + " gives no more frames; is it still connected?");
     const Clock::time_point now = Clock::now();
     if (count_ == 0) start_ = now;
     frame.image = frame.image.clone();
@@ -118,10 +117,14 @@ class CameraSource : public FrameSource {
 
  private:
   cv::VideoCapture capture_;
-  int number_;
+  std::string name_;
   Clock::time_point start_;
   std::int64_t count_ = 0;
 };
+
+double pixels_of(const cv::VideoCapture& capture) {
+  return capture.get(cv::CAP_PROP_FRAME_WIDTH) * capture.get(cv::CAP_PROP_FRAME_HEIGHT);
+}
 
 [[noreturn]] void fail_video(const std::string& path, const std::string& reason) {
   throw Error(ErrorCode::unreadable_image, "cannot read video '" + path + "': " + reason);
@@ -130,6 +133,14 @@ class CameraSource : public FrameSource {
 #endif
 
 }  // namespace
+
+std::string without_password(const std::string& url) {
+  const std::size_t scheme = url.find("://");
+  if (scheme == std::string::npos) return url;
+  const std::size_t host = scheme + 3;
+  const std::size_t at = url.substr(0, url.find('/', host)).rfind('@');
+  return at == std::string::npos || at < host ? url : url.substr(0, host) + url.substr(at + 1);
+}
 
 std::unique_ptr<FrameSource> newest_only(std::unique_ptr<FrameSource> source) {
   return std::make_unique<NewestOnly>(std::move(source));
@@ -144,9 +155,7 @@ std::unique_ptr<FrameSource> open_video(const std::string& path, double max_mega
   if (type != std::filesystem::file_type::regular) fail_video(path, "it is not a regular file");
   cv::VideoCapture capture(path, cv::CAP_FFMPEG);  // other backends would take patterns or devices
   if (!capture.isOpened()) fail_video(path, "it is no video, or of a kind that cannot be decoded");
-  const double pixels =
-      capture.get(cv::CAP_PROP_FRAME_WIDTH) * capture.get(cv::CAP_PROP_FRAME_HEIGHT);
-  if (pixels > max_megapixels * 1e6) fail_video(path, "its frames are too large");
+  if (pixels_of(capture) > max_megapixels * 1e6) fail_video(path, "its frames are too large");
   return std::make_unique<VideoSource>(std::move(capture));
 }
 
@@ -156,7 +165,22 @@ std::unique_ptr<FrameSource> open_camera(int number) {
     throw Error(ErrorCode::not_found, "cannot open camera " + std::to_string(number) +
                                           ": it is not there, in use, or not permitted");
   capture.set(cv::CAP_PROP_BUFFERSIZE, 1);
-  return newest_only(std::make_unique<CameraSource>(std::move(capture), number));
+  return newest_only(
+      std::make_unique<CameraSource>(std::move(capture), "camera " + std::to_string(number)));
+}
+
+std::unique_ptr<FrameSource> open_stream(const std::string& url, double max_megapixels) {
+  const std::string name = "stream '" + without_password(url) + "'";
+  constexpr int kPatience = 5000;  // ms
+  cv::VideoCapture capture(
+      url, cv::CAP_FFMPEG,
+      {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, kPatience, cv::CAP_PROP_READ_TIMEOUT_MSEC, kPatience});
+  if (!capture.isOpened())
+    throw Error(ErrorCode::io,
+                "cannot open " + name + ": nothing answers there, or it is no video");
+  if (pixels_of(capture) > max_megapixels * 1e6)
+    throw Error(ErrorCode::io, "cannot open " + name + ": its frames are too large");
+  return newest_only(std::make_unique<CameraSource>(std::move(capture), name));
 }
 
 #else
@@ -169,6 +193,10 @@ std::unique_ptr<FrameSource> open_video(const std::string& path, double) {
 std::unique_ptr<FrameSource> open_camera(int number) {
   throw Error(ErrorCode::unsupported,
               "cannot open camera " + std::to_string(number) + ": this build has no video support");
+}
+
+std::unique_ptr<FrameSource> open_stream(const std::string&, double) {
+  throw Error(ErrorCode::unsupported, "cannot open a stream: this build has no video support");
 }
 
 #endif

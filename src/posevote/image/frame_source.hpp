@@ -35,6 +35,16 @@ class FrameSource {
 /// Throws Error{not_found} when there is none or it is in use, Error{unsupported} as above.
 [[nodiscard]] std::unique_ptr<FrameSource> open_camera(int number);
 
+/// The newest frame of a network camera: rtsp://, rtsps://, http:// or https:// address. Throws
+/// Error{io} when nothing answers there within some seconds or it is no video, Error{unsupported}
+/// as above. The address may hold a password: messages leave it out.
+[[nodiscard]] std::unique_ptr<FrameSource> open_stream(const std::string& url,
+                                                       double max_megapixels = 100);
+
+/// The address without user name and password: for messages, and for people who may look at the
+/// pictures but not at the camera's settings.
+[[nodiscard]] std::string without_password(const std::string& url);
+
 /// Reads `source` in a thread of its own and hands out its newest frame only. Ends (or throws) when
 /// `source` does, after the newest frame was handed out.
 [[nodiscard]] std::unique_ptr<FrameSource> newest_only(std::unique_ptr<FrameSource> source);

@@ -155,5 +155,23 @@ TEST(Camera, OneThatIsNotThereIsAnError) {
 
 #endif
 
+TEST(OpenStream, AnAddressWithoutAnswerIsAnErrorThatHidesThePassword) {
+  try {
+    static_cast<void>(open_stream("http://user:secret@127.0.0.1:9/video"));
+    FAIL() << "it was opened";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::io);
+    EXPECT_THAT(error.what(), testing::HasSubstr("127.0.0.1:9"));
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("secret")));
+  }
+}
+
+TEST(OpenStream, WithoutPassword) {
+  EXPECT_EQ(without_password("rtsp://user:p@ss@host:554/a@b"), "rtsp://host:554/a@b");
+  EXPECT_EQ(without_password("rtsp://host/a@b"), "rtsp://host/a@b");
+  EXPECT_EQ(without_password("http://user@host"), "http://host");
+  EXPECT_EQ(without_password("camera:0"), "camera:0");
+}
+
 }  // namespace
 }  // namespace posevote

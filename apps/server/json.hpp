@@ -1,0 +1,31 @@
+// The server's own JSON: objects, views, quality cards. Recognition results are posevote/json's.
+#pragma once
+
+#include "http/message.hpp"
+#include "posevote/json/recognition_json.hpp"
+#include "posevote/store/object_store.hpp"
+#include "posevote/teach/quality.hpp"
+
+namespace posevote::server {
+
+[[nodiscard]] Response json_response(const Json& json, int status = 200);
+
+/// The request's body as a JSON object. Throws Problem 400, 413.
+[[nodiscard]] Json read_json(const Request& request);
+
+/// `json[name]` as text; throws Problem 400 when it is not there or no text.
+[[nodiscard]] std::string text_of(const Json& json, const char* name);
+
+/// null for NaN and infinities.
+[[nodiscard]] Json number_or_null(double value);
+
+[[nodiscard]] Json points_json(const std::vector<cv::Point2f>& points);
+[[nodiscard]] Json object_json(const ObjectSummary& object);
+[[nodiscard]] Json view_json(const ViewSummary& view);
+[[nodiscard]] Json quality_json(const ViewQuality& quality);
+[[nodiscard]] Json impostor_json(const ImpostorSummary& impostor);
+
+/// Where the next picture of these views helps most; null: no gap, or no yaw is known.
+[[nodiscard]] Json next_yaw_json(const std::vector<ViewSummary>& views);
+
+}  // namespace posevote::server

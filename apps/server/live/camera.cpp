@@ -1,0 +1,201 @@
+#include "live/camera.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "http/problem.hpp"
+
+namespace posevote::server {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr auto kRetry = milliseconds(500);
+constexpr double kSilence = 5;  // s without a frame: something is wrong, whatever the driver says
+constexpr double kStale = 30;   // s after which a frame shows nothing of the present
+
+}  // namespace
+
+/// What outlives the Camera if its source hangs.
+struct Camera::Shared {
+  std::vector<SourceChoice> choices;
+  SourceOptions source_options;
+  Clock::time_point begin = Clock::now();
+  PostedFrames posted;
+
+  mutable std::mutex mutex;
+  std::condition_variable changed;
+  Bell* bell = nullptr;  ///< null: nobody listens any more
+  std::string source;
+  bool stop = false, ended = false;
+  LiveOptions live_options;
+  CameraState state = CameraState::waiting;
+  std::string message = "waiting for the first frame";
+  Clock::time_point since = Clock::now(), last_frame = Clock::now();
+  std::shared_ptr<const LiveFrame> newest;
+  std::int64_t number = 0, frames = 0, dropped = 0;
+  std::deque<Clock::time_point> recent;
+
+  void enter(CameraState next, const std::string& why) {
+    if (state != next) since = Clock::now();
+    if (state == next && message == why) return;
+    state = next;
+    message = why;
+    if (bell) bell->ring();
+  }
+
+  void publish(Frame frame, const std::string& of) {
+    const std::lock_guard lock(mutex);
+    if (stop || source != of) return;
+    const auto now = Clock::now();
+    number += frame.dropped;
+    dropped += frame.dropped;
+    ++frames;
+    newest = std::make_shared<const LiveFrame>(std::move(frame.image), number++,
+                                               std::chrono::duration<double>(now - begin).count(),
+                                               of, live_options);
+    last_frame = now;
+    recent.push_back(now);
+    while (now - recent.front() > std::chrono::seconds(3)) recent.pop_front();
+    enter(CameraState::running, "");
+    if (bell) bell->ring();
+  }
+
+  std::string address_of(const std::string& name) const {
+    return std::ranges::find(choices, name, &SourceChoice::name)->address;
+  }
+
+  bool goes_on(const std::string& with) const {
+    const std::lock_guard lock(mutex);
+    return !stop && source == with;
+  }
+};
+
+void Camera::capture(std::shared_ptr<Shared> shared) {
+  Shared& s = *shared;
+  for (;;) {
+    std::string source;
+    {
+      const std::lock_guard lock(s.mutex);
+      if (s.stop) break;
+      source = s.source;
+    }
+    std::string reason;
+    try {
+      const auto frames = open_source(s.address_of(source), s.source_options, s.posted);
+      while (s.goes_on(source)) {
+        auto frame = frames->next();
+        if (!frame) throw Error(ErrorCode::io, "'" + source + "' has come to its end");
+        s.publish(std::move(*frame), source);
+      }
+      continue;
+    } catch (const std::exception& error) {
+      reason = error.what();
+    }
+    std::unique_lock lock(s.mutex);
+    if (s.source != source) continue;
+    s.enter(source == "client" ? CameraState::waiting : CameraState::lost, reason);
+    s.changed.wait_for(lock, kRetry, [&] { return s.stop || s.source != source; });
+  }
+  const std::lock_guard lock(s.mutex);
+  s.ended = true;
+  s.changed.notify_all();
+}
+
+Camera::Camera(std::vector<SourceChoice> choices, const SourceOptions& options, Bell& bell)
+    : shared_(std::make_shared<Shared>()) {
+  if (std::ranges::find(choices, "client", &SourceChoice::name) == choices.end())
+    choices.push_back(parse_source("client"));
+  shared_->choices = std::move(choices);
+  shared_->source_options = options;
+  shared_->source = shared_->choices.front().name;
+  shared_->bell = &bell;
+  std::thread(capture, shared_).detach();
+}
+
+Camera::~Camera() {
+  stop();
+}
+
+void Camera::stop() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->stop = true;
+  shared_->bell = nullptr;
+  shared_->changed.notify_all();
+  shared_->posted.interrupt();
+  // A driver may hang; the process ends nevertheless.
+  shared_->changed.wait_for(lock, std::chrono::seconds(3), [this] { return shared_->ended; });
+}
+
+std::vector<std::string> Camera::choices() const {
+  std::vector<std::string> names;
+  for (const SourceChoice& choice : shared_->choices) names.push_back(choice.name);
+  return names;
+}
+
+void Camera::select(const std::string& source) {
+  if (std::ranges::find(shared_->choices, source, &SourceChoice::name) == shared_->choices.end())
+    throw invalid("'" + source + "' is none of the sources that this server was started with");
+  const std::lock_guard lock(shared_->mutex);
+  if (shared_->source == source) return;
+  shared_->source = source;
+  shared_->newest = nullptr;
+  shared_->recent.clear();
+  shared_->last_frame = Clock::now();
+  shared_->enter(CameraState::waiting, "waiting for the first frame");
+  shared_->changed.notify_all();
+  shared_->posted.interrupt();
+}
+
+CameraStatus Camera::status() const {
+  const std::lock_guard lock(shared_->mutex);
+  const auto now = Clock::now();
+  const auto seconds_since = [&](Clock::time_point when) {
+    return std::chrono::duration<double>(now - when).count();
+  };
+  CameraStatus status{shared_->source, shared_->state, shared_->message,
+                      seconds_since(shared_->since)};
+  const double silence = seconds_since(shared_->last_frame);
+  if (status.state != CameraState::lost && status.source != "client" && silence > kSilence) {
+    status.state = CameraState::lost;
+    status.message = "no frame has come for some time; it is tried again by itself";
+    status.since_s = silence;
+  }
+  const auto& recent = shared_->recent;
+  if (recent.size() > 1 && seconds_since(recent.back()) < 3)
+    status.fps =
+        static_cast<double>(recent.size() - 1) / std::max(1e-3, seconds_since(recent.front()));
+  status.frames = shared_->frames;
+  status.dropped = shared_->dropped;
+  return status;
+}
+
+std::shared_ptr<const LiveFrame> Camera::newest() const {
+  const std::lock_guard lock(shared_->mutex);
+  const double age = std::chrono::duration<double>(Clock::now() - shared_->last_frame).count();
+  return age > kStale ? nullptr : shared_->newest;
+}
+
+void Camera::set_options(const LiveOptions& options) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->live_options = options;
+}
+
+std::int64_t Camera::post(cv::Mat image) {
+  std::int64_t number = 0;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->source != "client")
+      throw conflict("the source is '" + shared_->source + "'; choose 'client' first");
+    number = shared_->number;
+  }
+  shared_->posted.post(std::move(image));
+  return number;
+}
+
+double Camera::now_s() const {
+  return std::chrono::duration<double>(Clock::now() - shared_->begin).count();
+}
+
+}  // namespace posevote::server

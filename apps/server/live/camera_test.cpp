@@ -1,0 +1,111 @@
+#include "live/camera.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "http/problem.hpp"
+#include "posevote/core/error.hpp"
+
+namespace posevote::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CameraTest : public testing::Test {
+ protected:
+  CameraTest() { fs::create_directory(folder_); }
+  ~CameraTest() override { fs::remove_all(folder_); }
+
+  /// A plain picture of this brightness.
+  void show(int name, int brightness) const {
+    cv::imwrite(folder_ + "/" + std::to_string(name) + ".png",
+                cv::Mat(40, 60, CV_8UC3, cv::Scalar::all(brightness)));
+  }
+
+  /// Asks again at every ring; false after a minute.
+  bool until(const std::function<bool()>& condition) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    std::uint64_t seen = bell_.rings();
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      seen = bell_.wait(seen, std::chrono::milliseconds(100));
+    }
+    return true;
+  }
+
+  Bell bell_;
+  std::string folder_ =
+      (fs::temp_directory_path() / ("posevote-camera-" + std::to_string(getpid()))).string();
+};
+
+TEST_F(CameraTest, AFolderIsShownAgainAndAgain) {
+  show(1, 50);
+  show(2, 200);
+  PostedFrames posted;
+  const auto source = open_source(folder_, {100, 25}, posted);
+  for (const int brightness : {50, 200, 50, 200})
+    EXPECT_EQ(source->next()->image.at<cv::Vec3b>(0, 0)[0], brightness);
+}
+
+TEST_F(CameraTest, ADamagedPictureIsLeftOutAndAFolderOfThemIsAnError) {
+  show(1, 50);
+  std::ofstream(folder_ + "/2.png") << "no picture";
+  PostedFrames posted;
+  const auto source = open_source(folder_, {100, 25}, posted);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(source->next()->image.at<cv::Vec3b>(0, 0)[0], 50);
+  fs::remove(folder_ + "/1.png");
+  EXPECT_THROW(static_cast<void>(source->next()), Error);
+}
+
+TEST_F(CameraTest, NamesOfSources) {
+  EXPECT_EQ(parse_source("0").name, "camera:0");
+  EXPECT_EQ(parse_source("client").name, "client");
+  const SourceChoice stream = parse_source("rtsp://me:secret@robot/head");
+  EXPECT_EQ(stream.name, "rtsp://robot/head");
+  EXPECT_EQ(stream.address, "rtsp://me:secret@robot/head");
+  PostedFrames posted;
+  EXPECT_THROW(static_cast<void>(open_source(folder_ + "/none", {}, posted)), Error);
+  EXPECT_THROW(static_cast<void>(open_source("camera:x", {}, posted)), Error);
+}
+
+TEST_F(CameraTest, FramesAreNumberedAndStateIsTold) {
+  show(1, 50);
+  Camera camera({parse_source(folder_)}, {100, 25}, bell_);
+  ASSERT_TRUE(until([&] { return camera.newest() && camera.newest()->number() >= 2; }));
+  EXPECT_EQ(camera.status().state, CameraState::running);
+  EXPECT_EQ(camera.newest()->source(), folder_);
+  fs::remove_all(folder_);
+  ASSERT_TRUE(until([&] { return camera.status().state == CameraState::lost; }));
+  EXPECT_THAT(camera.status().message, testing::HasSubstr(folder_));
+  fs::create_directory(folder_);
+  show(1, 60);
+  EXPECT_TRUE(until([&] { return camera.status().state == CameraState::running; }));
+}
+
+TEST_F(CameraTest, PostedFramesOnlyWhileTheyAreTheSource) {
+  show(1, 50);
+  Camera camera({parse_source(folder_)}, {100, 25}, bell_);
+  const cv::Mat picture(30, 30, CV_8UC3, cv::Scalar::all(9));
+  EXPECT_THROW(camera.post(picture), Problem);
+  EXPECT_THROW(camera.select("/etc"), Problem);
+  camera.select("client");
+  camera.post(picture);
+  ASSERT_TRUE(until([&] { return camera.newest() && camera.newest()->source() == "client"; }));
+  EXPECT_EQ(camera.newest()->image().cols, 30);
+}
+
+TEST_F(CameraTest, FramesAreReducedForStreamsOnce) {
+  LiveOptions options;
+  options.stream_width = 100;
+  const LiveFrame frame(cv::Mat(300, 400, CV_8UC3, cv::Scalar::all(9)), 7, 1.5, "x", options);
+  const cv::Mat small = cv::imdecode(frame.stream_jpeg(), cv::IMREAD_COLOR);
+  EXPECT_EQ(small.size(), cv::Size(100, 75));
+  EXPECT_EQ(&frame.stream_jpeg(), &frame.stream_jpeg());
+}
+
+}  // namespace
+}  // namespace posevote::server

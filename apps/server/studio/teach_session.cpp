@@ -1,0 +1,216 @@
+#include "studio/teach_session.hpp"
+
+#include <filesystem>
+
+#include "http/problem.hpp"
+#include "json.hpp"
+#include "posevote/store/object_name.hpp"
+#include "posevote/store/sqlite/sqlite_store.hpp"
+#include "posevote/teach/outline.hpp"
+#include "studio/files.hpp"
+
+namespace posevote::server {
+namespace {
+
+constexpr const char* kDraft = "draft";  // the object's name as long as it has none
+
+std::unique_ptr<ObjectStore> open_draft(const std::string& path) {
+  SqliteOptions options;
+  options.write_ahead = false;
+  return open_sqlite_store(path, options);
+}
+
+/// 3 channels: whoever says "the whole picture" means it, whatever is transparent.
+cv::Mat without_alpha(const cv::Mat& image) {
+  return image.channels() == 4 ? to_bgr8(image) : image;
+}
+
+}  // namespace
+
+Json Proposal::json() const {
+  const double covered = mask.empty() ? 0 : cv::countNonZero(mask) / double(mask.total());
+  Json json{{"usable", view.has_value()},
+            {"method", method},
+            {"source", picture.source},
+            {"width", picture.image.cols},
+            {"height", picture.image.rows},
+            {"yaw", number_or_null(yaw_deg)},
+            {"features", view ? view->features.size() : 0},
+            {"coverage", covered},
+            {"outline", points_json(mask.empty() ? std::vector<cv::Point2f>() : outline_of(mask))},
+            {"quality", quality ? quality_json(*quality) : Json()},
+            {"adds_little", quality && quality->redundancy > QualityOptions().redundant_from},
+            {"advice", advice}};
+  return json;
+}
+
+TeachSession::TeachSession(std::string id, std::string path)
+    : id_(std::move(id)), path_(std::move(path)) {
+  if (std::filesystem::exists(path_)) draft_ = open_draft(path_);
+}
+
+std::vector<ViewSummary> TeachSession::views() const {
+  return draft_ && has_object(*draft_, kDraft) ? draft_->views(kDraft) : std::vector<ViewSummary>();
+}
+
+Json TeachSession::json() const {
+  const std::lock_guard lock(mutex_);
+  Json list = Json::array();
+  const auto all = views();
+  bool known = false;
+  for (const ViewSummary& view : all) {
+    list.push_back(view_json(view));
+    known = known || std::isfinite(view.yaw_deg);
+  }
+  const Json next = next_yaw_json(all);
+  return {{"session", id_},
+          {"seconds", seconds()},
+          {"background", background_.has_value()},
+          {"proposal", proposal_.has_value()},
+          {"views", std::move(list)},
+          {"next_yaw", next},
+          {"enough", known && next.is_null()}};
+}
+
+void TeachSession::touch() {
+  if (discarded_) throw not_found("there is no such teach session any more");
+  touched_ = Clock::now();
+}
+
+double TeachSession::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - begun_).count();
+}
+
+double TeachSession::idle_s() const {
+  const std::lock_guard lock(mutex_);
+  return std::chrono::duration<double>(Clock::now() - touched_).count();
+}
+
+void TeachSession::set_background(SentPicture background) {
+  const std::lock_guard lock(mutex_);
+  touch();
+  background_ = std::move(background);
+}
+
+SentPicture TeachSession::background() const {
+  const std::lock_guard lock(mutex_);
+  if (!background_) throw not_found("this session has no background yet");
+  return *background_;
+}
+
+Proposal TeachSession::examine(SentPicture picture, const Wish& wish,
+                               const TeachOptions& options) const {
+  ViewSource source;
+  source.picture = wish.whole ? without_alpha(picture.image) : picture.image;
+  source.yaw_deg = wish.yaw_deg;
+  Proposal proposal;
+  proposal.method = "whole";
+  if (!wish.mask.empty()) {
+    proposal.method = "mask";
+    source.mask = wish.mask;
+  } else if (wish.roi) {
+    proposal.method = "roi";
+    source.roi = wish.roi;
+  } else if (background_ && !wish.whole) {
+    proposal.method = "background";
+    source.background = background_->image;
+  }
+  proposal.yaw_deg = wish.yaw_deg;
+  proposal.picture = std::move(picture);
+  try {
+    proposal.mask = find_object(source, options.segment);
+    source.mask = proposal.mask;
+    View view = teach_view(source, options);
+    QualityOptions quality;
+    quality.feature = options.feature;
+    const auto others = draft_ && has_object(*draft_, kDraft) ? draft_->load_object(kDraft).views
+                                                              : ObjectModel().views;
+    proposal.quality = assess_view(view, others, quality);
+    proposal.advice = proposal.quality->advice;
+    proposal.view = std::move(view);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::unusable_view) throw;
+    proposal.advice = {error.what()};
+  }
+  return proposal;
+}
+
+Proposal TeachSession::propose(SentPicture picture, const Wish& wish, const TeachOptions& options) {
+  const std::lock_guard lock(mutex_);
+  touch();
+  proposal_ = examine(std::move(picture), wish, options);
+  return *proposal_;
+}
+
+Proposal TeachSession::correct(const cv::Mat& mask, const TeachOptions& options) {
+  const std::lock_guard lock(mutex_);
+  touch();
+  if (!proposal_) throw not_found("there is no view in hand");
+  Wish wish;
+  wish.mask = mask;
+  wish.yaw_deg = proposal_->yaw_deg;
+  proposal_ = examine(proposal_->picture, wish, options);
+  return *proposal_;
+}
+
+Proposal TeachSession::proposal() const {
+  const std::lock_guard lock(mutex_);
+  if (!proposal_) throw not_found("there is no view in hand");
+  return *proposal_;
+}
+
+void TeachSession::accept(std::optional<double> yaw_deg, const FeatureOptions& features,
+                          const std::string& version) {
+  const std::lock_guard lock(mutex_);
+  touch();
+  if (!proposal_) throw not_found("there is no view in hand");
+  if (!proposal_->view) throw conflict("the view cannot be used: " + proposal_->advice.front());
+  TaughtView taught;
+  taught.view = *proposal_->view;
+  if (yaw_deg) taught.view.yaw_deg = *yaw_deg;
+  taught.picture = proposal_->picture.encoded;
+  taught.method = proposal_->method;
+  taught.provenance = {proposal_->picture.source, "", version};
+  if (!draft_) draft_ = open_draft(path_);
+  if (!draft_->add_view(kDraft, taught, record_features(features)).added)
+    throw conflict("this very picture is among the views already");
+  proposal_.reset();
+}
+
+TaughtView TeachSession::view(const std::string& view) const {
+  const std::lock_guard lock(mutex_);
+  if (!draft_) throw not_found("this session has no view '" + view + "'");
+  return draft_->view(kDraft, view);
+}
+
+void TeachSession::remove_view(const std::string& view) {
+  const std::lock_guard lock(mutex_);
+  touch();
+  if (!draft_) throw not_found("this session has no view '" + view + "'");
+  draft_->remove_view(kDraft, view);
+}
+
+std::vector<AddResult> TeachSession::save(ObjectStore& store, const std::string& object,
+                                          bool add_to_existing) const {
+  check_object_name(object);
+  const std::lock_guard lock(mutex_);
+  if (views().empty()) throw conflict("there are no views to save yet; accept one first");
+  std::vector<AddResult> results;
+  store.transact([&] {
+    if (!add_to_existing && has_object(store, object))
+      throw Error(ErrorCode::already_exists,
+                  "there is an object '" + object + "' already; add to it, or take another name");
+    results = copy_views(*draft_, kDraft, store, object);
+  });
+  return results;
+}
+
+void TeachSession::discard() {
+  const std::lock_guard lock(mutex_);
+  discarded_ = true;
+  draft_.reset();
+  proposal_.reset();
+  remove_database_file(path_);
+}
+
+}  // namespace posevote::server

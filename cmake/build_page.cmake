@@ -1,0 +1,33 @@
+# cmake -DSOURCE=... -DWORK=... -DPAGE=... -DNPM=... -P build_page.cmake: builds the page from a copy of
+# its sources in WORK into PAGE. A build that cannot have it, e.g. without network, goes on without.
+file(MAKE_DIRECTORY ${WORK})
+file(GLOB entries RELATIVE ${SOURCE} ${SOURCE}/*)
+list(REMOVE_ITEM entries node_modules dist)
+foreach(entry IN LISTS entries)
+  file(REMOVE_RECURSE ${WORK}/${entry})
+  file(COPY ${SOURCE}/${entry} DESTINATION ${WORK})
+endforeach()
+get_filename_component(above ${SOURCE} DIRECTORY)
+file(COPY ${above}/openapi.yaml DESTINATION ${WORK}/..)
+
+file(SHA256 ${WORK}/package-lock.json lock)
+set(installed "")
+if(EXISTS ${WORK}/node_modules/.lock-hash)
+  file(READ ${WORK}/node_modules/.lock-hash installed)
+endif()
+if(NOT installed STREQUAL lock)
+  execute_process(COMMAND ${NPM} ci --no-audit --no-fund --loglevel=error
+    WORKING_DIRECTORY ${WORK} RESULT_VARIABLE failed)
+  if(NOT failed)
+    file(WRITE ${WORK}/node_modules/.lock-hash ${lock})
+  endif()
+endif()
+if(NOT failed)
+  execute_process(COMMAND ${NPM} exec -- vite build --outDir ${PAGE} --emptyOutDir --logLevel warn
+    WORKING_DIRECTORY ${WORK} RESULT_VARIABLE failed)
+endif()
+if(failed)
+  message(WARNING "The page of posevote serve could not be built: the program will have none.")
+  file(REMOVE_RECURSE ${PAGE})
+  file(MAKE_DIRECTORY ${PAGE})
+endif()

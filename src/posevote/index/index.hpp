@@ -15,7 +15,7 @@ namespace posevote {
 struct IndexOptions {
   std::string method = "auto";  ///< "auto", "exact" or "approximate"
   int scan_limit = 4000;  ///< "auto" scans all descriptors of a Laplacian sign up to this many
-  int probes = 40;        ///< lists that are looked through for each scene feature
+  int probes = 32;        ///< lists that are looked through for each scene feature
   int threads = 1;        ///< the answers do not depend on it
   void describe(OptionList& list);
 };

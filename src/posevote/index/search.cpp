@@ -16,7 +16,7 @@ constexpr float kLengthError = 1e-3F;
 /// Distance to which the rounding of a query is reckoned to matter; see Search::encode.
 constexpr float kUsualDistance = 0.5F;
 constexpr float kAllKeys = 65535;         // a margin that lets all through
-constexpr std::size_t kBatch = 1024;      // their shortlists fit in a cache
+constexpr std::size_t kBatch = 512;       // their shortlists about fit in an L2 cache
 constexpr std::size_t kChunkBlocks = 64;  // 64 KB of codes for 64 dimensions: half of an L2 cache
 constexpr std::size_t kChunk = kChunkBlocks * kBlockLanes;
 constexpr std::size_t kAhead = 2;  ///< queries whose rows are on their way while one is ranked
@@ -38,6 +38,7 @@ struct Query {
   QueryCode code;
   float shift = 0;  ///< added to the key of every candidate
   float error = 0;  ///< of a product
+  int kth = 0;      ///< key of the k-th best candidate
 };
 
 /// A list that is to be scanned for a query.
@@ -63,7 +64,7 @@ class Search {
         k_(k),
         certain_(index.options().method == "exact"),
         code_bytes_(coder_.quads() * 4),
-        capacity_((4 * k + 128 + kBlockLanes - 1) / kBlockLanes * kBlockLanes) {
+        capacity_((2 * k + 64 + kBlockLanes - 1) / kBlockLanes * kBlockLanes) {
     std::uint32_t place = 0;
     for (const auto& part : index_.parts()) {
       residual_ = std::max(
@@ -82,10 +83,11 @@ class Search {
     count_ = end - begin;
     encode();
     for (std::size_t sign = 0; sign < kSigns; ++sign) look_through(sign);
-    for (std::size_t q = 0; q < std::min(kAhead, count_); ++q) prepare_rank(q);
-    for (std::size_t q = 0; q < count_; ++q) {
-      if (q + kAhead < count_) prepare_rank(q + kAhead);
-      rank(q, result);
+    // What a query needs next is on its way from memory while others are at work.
+    for (std::size_t step = 0; step < count_ + 2 * kAhead; ++step) {
+      if (step < count_) choose(step);
+      if (step >= kAhead && step - kAhead < count_) locate(step - kAhead);
+      if (step >= 2 * kAhead) rank(step - 2 * kAhead, result);
     }
   }
 
@@ -256,28 +258,47 @@ class Search {
     int view, feature;
   };
 
-  /// Candidates of a query whose rows, scattered over the memory, have been asked for: first the k
-  /// best by their codes.
-  void prepare_rank(std::size_t q) {
+  /// Fixes the candidates of a query and asks for their entries.
+  void choose(std::size_t q) {
     Shortlist& shortlist = shortlists_[q];
-    const int kth = shortlist.tighten();
-    std::vector<Candidate>& candidates = prepared_[q % prepared_.size()];
-    candidates.clear();
-    std::size_t best = 0;
+    queries_[q].kth = shortlist.tighten();
+    std::size_t s = 0;
     for (std::size_t i = 0; i < shortlist.size(); ++i) {
-      candidates.push_back(locate(shortlist.key(i), shortlist.place(i)));
-      if (candidates.back().key >= kth) std::swap(candidates[best++], candidates.back());
+      s = source_of(shortlist.place(i), s);
+      __builtin_prefetch(entries_of(sources_[s]) + (shortlist.place(i) - sources_[s].first_place));
     }
   }
 
-  [[nodiscard]] Candidate locate(std::int16_t key, std::uint32_t place) const {
-    std::size_t s = sources_.size() - 1;
-    while (sources_[s].first_place > place) --s;
-    const Source& source = sources_[s];
-    const Segment& segment = *source.part->segment;
-    const Segment::Entry entry = segment.lists(source.sign).entries[place - source.first_place];
+  /// Asks for the rows of the candidates of a query. The k best by their codes come first.
+  void locate(std::size_t q) {
+    const Shortlist& shortlist = shortlists_[q];
+    std::vector<Candidate>& candidates = located_[q % located_.size()];
+    candidates.clear();
+    std::size_t best = 0, s = 0;
+    for (std::size_t i = 0; i < shortlist.size(); ++i) {
+      s = source_of(shortlist.place(i), s);
+      candidates.push_back(candidate(sources_[s], shortlist.place(i), shortlist.key(i)));
+      if (candidates.back().key >= queries_[q].kth)
+        std::swap(candidates[best++], candidates.back());
+    }
+  }
+
+  /// The source of a place; a guess saves the search.
+  [[nodiscard]] std::size_t source_of(std::uint32_t place, std::size_t guess) const {
+    while (sources_[guess].first_place > place) --guess;
+    while (guess + 1 < sources_.size() && sources_[guess + 1].first_place <= place) ++guess;
+    return guess;
+  }
+
+  [[nodiscard]] static const Segment::Entry* entries_of(const Source& source) {
+    return source.part->segment->lists(source.sign).entries.data();
+  }
+
+  [[nodiscard]] static Candidate candidate(const Source& source, std::uint32_t place,
+                                           std::int16_t key) {
+    const Segment::Entry entry = entries_of(source)[place - source.first_place];
     const ListIndex::Number& number = source.part->numbers[entry.unit];
-    const cv::Mat& rows = segment.units()[entry.unit].descriptors;
+    const cv::Mat& rows = source.part->segment->units()[entry.unit].descriptors;
     const uchar* row = rows.data + rows.step.p[0] * entry.feature;
     const std::size_t bytes = rows.elemSize() * static_cast<std::size_t>(rows.cols);
     for (std::size_t offset = 0; offset < bytes; offset += 64) __builtin_prefetch(row + offset);
@@ -288,9 +309,10 @@ class Search {
   /// The k best of the candidates of a query by exact distance. Of those that are not among the k
   /// best by their codes, only those are measured that the error of the codes leaves a chance.
   void rank(std::size_t q, NeighborLists& result) {
-    std::vector<Candidate>& candidates = prepared_[q % prepared_.size()];
+    std::vector<Candidate>& candidates = located_[q % located_.size()];
     const std::size_t wanted = std::min(k_, candidates.size());
     ranked_.clear();
+    all_distances_.clear();
     measure(q, candidates.data(), wanted);
     float farthest = 0;
     for (const Neighbor& neighbor : ranked_) farthest = std::max(farthest, neighbor.distance);
@@ -300,13 +322,33 @@ class Search {
                        [=](const Candidate& c) { return static_cast<float>(c.key) >= lowest; });
     measure(q, candidates.data() + wanted,
             static_cast<std::size_t>(end - candidates.begin()) - wanted);
-    std::partial_sort_copy(ranked_.begin(), ranked_.end(), result.fill(begin_ + q, wanted),
-                           result.fill(begin_ + q, wanted) + wanted, before);
+    sort(result.fill(begin_ + q, wanted), wanted);
+  }
+
+  /// The first `wanted` of `ranked_` in order. Few are sorted by counting, for each, how many are
+  /// nearer: no branch is guessed wrong.
+  void sort(Neighbor* sorted, std::size_t wanted) {
+    constexpr std::size_t kFew = 64;
+    const std::size_t size = ranked_.size();
+    bool unequal = size <= kFew;
+    std::array<bool, kFew> taken{};
+    for (std::size_t i = 0; i < size && unequal; ++i) {
+      std::uint32_t nearer = 0;
+      for (std::size_t j = 0; j < size; ++j)
+        nearer += all_distances_[j] < all_distances_[i] ? 1U : 0U;
+      unequal = !taken[nearer];
+      taken[nearer] = true;
+      if (nearer < wanted) sorted[nearer] = ranked_[i];
+    }
+    if (!unequal)
+      std::partial_sort_copy(ranked_.begin(), ranked_.end(), sorted, sorted + wanted, before);
   }
 
   void measure(std::size_t q, const Candidate* candidates, std::size_t count) {
     rows_.resize(count);
-    distances_.resize(count);
+    const std::size_t before_these = all_distances_.size();
+    all_distances_.resize(before_these + count);
+    float* found = all_distances_.data() + before_these;
     const auto size = static_cast<std::size_t>(coder_.dimension());
     floats_.resize(count * size);
     for (std::size_t i = 0; i < count; ++i) {
@@ -316,9 +358,9 @@ class Search {
                          &floats_[i * size], coder_.dimension());
       rows_[i] = &floats_[i * size];
     }
-    distances(row(q), rows_.data(), count, size, distances_.data());
+    distances(row(q), rows_.data(), count, size, found);
     for (std::size_t i = 0; i < count; ++i)
-      ranked_.push_back({candidates[i].view, candidates[i].feature, distances_[i]});
+      ranked_.push_back({candidates[i].view, candidates[i].feature, found[i]});
   }
 
   const ListIndex& index_;
@@ -343,9 +385,10 @@ class Search {
   std::array<std::uint16_t, kMaxQueries * kChunkBlocks> found_;
   std::vector<std::uint32_t> best_;
   std::array<std::int16_t, kMaxQueries * kChunk> products_;
-  std::array<std::vector<Candidate>, kAhead + 1> prepared_;
+  std::array<std::vector<Candidate>, kAhead + 1> located_;
   std::vector<const float*> rows_;
-  std::vector<float> distances_, floats_;
+  std::vector<float> all_distances_;  ///< of `ranked_`
+  std::vector<float> floats_;
   std::vector<Neighbor> ranked_;
 };
 

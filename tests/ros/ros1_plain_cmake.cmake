@@ -1,9 +1,9 @@
-# Without catkin's own commands, with the messages of the workspace; then installed.
+# Without catkin's own commands, with the workspace's sources and messages; then installed.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(ENV{ROS_VERSION} 1)
 file(REMOVE_RECURSE ${WORK})
 set(workspace ${WORK}/../ros1_workspace/devel)
-run("configuring" ${CMAKE_COMMAND} -S ${SOURCE}/ros/posevote_ros -B ${WORK}/build ${options}
+run("configuring" ${CMAKE_COMMAND} -S ${workspace}/../src/posevote_ros -B ${WORK}/build ${options}
   "-DCMAKE_PREFIX_PATH=${workspace}\\;${PREFIX}" -DCMAKE_BUILD_TYPE=Release
   -DCMAKE_INSTALL_PREFIX=${WORK}/installed)
 run("building" ${CMAKE_COMMAND} --build ${WORK}/build)

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double decisive = 9.2;        // chi^2, 2 degrees of freedom, 99 %
 constexpr double least_noise_px = 0.5;  // of a matched point
+constexpr std::size_t most_witnesses = 12;
 
 struct Fit {
   Pose pose;
@@ -84,8 +85,8 @@ std::vector<Fit> fit_plane(const std::vector<cv::Point3d>& plane,
 
 bool is_undecided(const Fit& better, const Fit& other, std::size_t points) {
   const double noise = std::max(better.squared_error, least_noise_px * least_noise_px);
-  const double evidence =
-      static_cast<double>(points) * (other.squared_error - better.squared_error) / noise;
+  const double evidence = static_cast<double>(std::min(points, most_witnesses)) *
+                          (other.squared_error - better.squared_error) / noise;
   // Both fits may have ended in one place.
   const cv::Matx33d turn = other.pose.rotation * better.pose.rotation.t();
   const double cosine = (cv::trace(turn) - 1) / 2;

@@ -64,8 +64,9 @@ struct ObjectPose {
 /// Bartoli, IJCV 109(3), 2014, then least squares). A plane seen from far away looks nearly the
 /// same mirrored; with n points and noise s the two are told apart when n (e2^2 - e1^2) / s^2
 /// > 9.2, the 99 % point of chi^2 with two degrees of freedom (its two angles); s is the fit's own
-/// error, at least half a pixel. Empty when the fit fails, or the object would be behind the
-/// camera.
+/// error, at least half a pixel. Where the surface is no plane, the points do not err
+/// independently: no more than 12 are counted. Empty when the points lie on a line, the fit fails,
+/// or the object would be behind the camera.
 [[nodiscard]] std::optional<ObjectPose> find_pose(const Detection& detection, const View& view,
                                                   double height_m, const Camera& camera);
 

@@ -1,17 +1,11 @@
 #include "ros1/teach_action.hpp"
 
 #include "logic/fill_message.hpp"
-#include "posevote/core/error.hpp"
+#include "logic/teach_loop.hpp"
 #include "ros1/convert.hpp"
 #include "ros1/node.hpp"
 
 namespace posevote::ros1 {
-namespace {
-
-constexpr double default_timeout_s = 120;
-
-}  // namespace
-
 TeachAction::TeachAction(ros::NodeHandle private_nh, Node& node)
     : node_(node),
       server_(
@@ -81,23 +75,17 @@ logic::TeachProgress TeachAction::teach_given(const posevote_msgs::TeachGoal& go
 logic::TeachProgress TeachAction::teach_from_camera(const posevote_msgs::TeachGoal& goal) {
   logic::TeachSession session(logic::to_lesson(goal), node_.recognition().options().watch,
                               teach_view(goal.object, node_.camera_topic()));
-  const ros::WallDuration patience(goal.timeout_s > 0 ? goal.timeout_s : default_timeout_s);
   const Node::Demand demand(node_);
-  std::uint64_t seen = node_.frames().number();
-  ros::WallTime last_progress = ros::WallTime::now();
-  report(session.progress(), {});
-  while (!session.finished() && !is_cancelled()) {
-    if (ros::WallTime::now() - last_progress > patience)
-      throw Error(ErrorCode::io, "no view could be taken from '" + node_.camera_topic() +
-                                     "' in time, at the step '" + session.progress().step + "'");
-    const auto frame = node_.frames().wait_newer(seen, std::chrono::milliseconds(200));
-    if (!frame) continue;
-    if (capture_.exchange(false)) session.capture();
-    if (!session.offer(frame->picture(), frame->header.stamp.toSec())) continue;
-    last_progress = ros::WallTime::now();
-    report(session.progress(), frame->header);
-  }
-  return session.progress();
+  logic::TeachLoop<Frame> loop{node_.frames(),
+                               node_.camera_topic(),
+                               goal.timeout_s,
+                               [](const Frame& frame) { return frame.header.stamp.toSec(); },
+                               [this] { return capture_.exchange(false); },
+                               [this] { return is_cancelled(); },
+                               [this](const logic::TeachProgress& progress, const Frame* frame) {
+                                 report(progress, frame ? frame->header : std_msgs::Header());
+                               }};
+  return loop.run(session);
 }
 
 }  // namespace posevote::ros1

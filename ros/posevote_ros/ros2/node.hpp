@@ -1,6 +1,7 @@
 // The recognition node for ROS 2, a component with a life cycle. Decides nothing: see logic/.
 #pragma once
 
+#include <tf2_ros/transform_broadcaster.h>
 #include <diagnostic_updater/diagnostic_updater.hpp>
 #include <memory>
 #include <mutex>
@@ -10,7 +11,6 @@
 #include <rclcpp_lifecycle/lifecycle_publisher.hpp>
 #include <sensor_msgs/msg/image.hpp>
 #include <string>
-#include <tf2_ros/transform_broadcaster.hpp>
 #include <vision_msgs/msg/detection2_d_array.hpp>
 #include <vision_msgs/msg/detection3_d_array.hpp>
 #include <visualization_msgs/msg/marker_array.hpp>

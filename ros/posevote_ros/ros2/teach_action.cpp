@@ -1,18 +1,11 @@
 #include "ros2/teach_action.hpp"
 
 #include "logic/fill_message.hpp"
-#include "posevote/core/error.hpp"
+#include "logic/teach_loop.hpp"
 #include "ros2/convert.hpp"
 #include "ros2/node.hpp"
 
 namespace posevote::ros2 {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-constexpr double default_timeout_s = 120;
-
-}  // namespace
-
 TeachAction::TeachAction(Node& node) : node_(node) {
   offer_capture();
   server_ = rclcpp_action::create_server<Teach>(
@@ -110,24 +103,17 @@ logic::TeachProgress TeachAction::teach_from_camera(Goal& goal) {
   const std::string topic = camera_topic(node_);
   logic::TeachSession session(logic::to_lesson(*asked), node_.recognition().options().watch,
                               teach_view(asked->object, topic));
-  const std::chrono::duration<double> patience(asked->timeout_s > 0 ? asked->timeout_s
-                                                                    : default_timeout_s);
-  std::uint64_t seen = node_.frames().number();
-  auto last_progress = Clock::now();
-  report(goal, session.progress(), {});
-  while (!session.finished() && !is_cancelled(goal)) {
-    if (Clock::now() - last_progress > patience)
-      throw Error(ErrorCode::io, "no view could be taken from '" + topic +
-                                     "' in time, at the step '" + session.progress().step + "'");
-    const auto frame = node_.frames().wait_newer(seen, std::chrono::milliseconds(200));
-    if (!frame) continue;
-    if (capture_.exchange(false)) session.capture();
-    const double stamp_s = rclcpp::Time(frame->header.stamp).seconds();
-    if (!session.offer(frame->picture(), stamp_s)) continue;
-    last_progress = Clock::now();
-    report(goal, session.progress(), frame->header);
-  }
-  return session.progress();
+  logic::TeachLoop<Frame> loop{
+      node_.frames(),
+      topic,
+      asked->timeout_s,
+      [](const Frame& frame) { return rclcpp::Time(frame.header.stamp).seconds(); },
+      [this] { return capture_.exchange(false); },
+      [&] { return is_cancelled(goal); },
+      [&](const logic::TeachProgress& progress, const Frame* frame) {
+        report(goal, progress, frame ? frame->header : std_msgs::msg::Header());
+      }};
+  return loop.run(session);
 }
 
 }  // namespace posevote::ros2

@@ -4,7 +4,8 @@
 usage: make_demo_bag.py DEMO_FOLDER BAG [--seconds 2] [--rate 10] [--raw]
 
 Topics: /camera/image_raw/compressed (the JPEG files as they are; with --raw: /camera/image_raw,
-which needs python3-pil) and /camera/camera_info. Each scene is shown for some seconds.
+which needs python3-pil), /camera/camera_info and /tf, in which camera_link looks along x, with z up.
+Each scene is shown for some seconds.
 """
 import argparse
 import glob
@@ -13,7 +14,9 @@ import sys
 
 import genpy
 import rosbag
+from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image
+from tf2_msgs.msg import TFMessage
 
 FRAME = "camera_optical"
 WIDTH, HEIGHT = 1280, 960
@@ -26,6 +29,15 @@ def camera_info():
                       K=[FOCAL_PX, 0, cx, 0, FOCAL_PX, cy, 0, 0, 1],
                       R=[1, 0, 0, 0, 1, 0, 0, 0, 1],
                       P=[FOCAL_PX, 0, cx, 0, 0, FOCAL_PX, cy, 0, 0, 0, 1, 0])
+
+
+def camera_transform(stamp):
+    transform = TransformStamped(child_frame_id=FRAME)
+    transform.header.frame_id = "camera_link"
+    transform.header.stamp = stamp
+    rotation = transform.transform.rotation
+    rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
+    return TFMessage([transform])
 
 
 def load(path, raw):
@@ -56,6 +68,7 @@ def main():
         for scene in scenes:
             picture = load(scene, arguments.raw)
             for _ in range(max(1, round(arguments.seconds * arguments.rate))):
+                bag.write("/tf", camera_transform(stamp), stamp)
                 for message, name in ((info, "/camera/camera_info"), (picture, topic)):
                     message.header.stamp = stamp
                     message.header.frame_id = FRAME

@@ -24,7 +24,7 @@ install(TARGETS posevote_ros_component
   ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)
 install(DIRECTORY launch rviz config DESTINATION share/${PROJECT_NAME}
   FILES_MATCHING PATTERN *.launch.py PATTERN ros2.rviz PATTERN *.yaml)
-install(PROGRAMS scripts/studio DESTINATION lib/${PROJECT_NAME})
+install(PROGRAMS scripts/import_pictures scripts/studio DESTINATION lib/${PROJECT_NAME})
 
 if(BUILD_TESTING)
   find_package(launch_testing_ament_cmake REQUIRED)

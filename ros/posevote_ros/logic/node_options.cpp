@@ -28,7 +28,8 @@ void add_field(OptionList& list, const std::string& name, const OptionField& fie
 
 void NodeOptions::describe(OptionList& list) {
   list.add("database", database, {},
-           "File that holds the objects; empty: $POSEVOTE_DB, else posevote/objects.db in the XDG "
+           "File that holds the objects, or postgresql:// address; empty: $POSEVOTE_DB, else "
+           "posevote/objects.db in the XDG "
            "data folder.");
   list.add("preset", preset, preset_names(), "Recognition options to begin with.");
   list.add("transport", transport, {"raw", "compressed"}, "How pictures come from the camera.");

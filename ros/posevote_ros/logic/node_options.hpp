@@ -19,7 +19,7 @@ using Settings = std::map<std::string, std::string>;
 
 struct NodeOptions {
   // Read once, at the start.
-  std::string database;  ///< path; "": see `database_path`
+  std::string database;  ///< file or address; "": see `database_path`
   std::string preset = "default";
   std::string transport = "raw";  ///< of pictures: "raw" or "compressed"
 

@@ -7,7 +7,7 @@
 
 #include "logic/active_set.hpp"
 #include "posevote/core/error.hpp"
-#include "posevote/store/sqlite/sqlite_store.hpp"
+#include "posevote/store/open_store.hpp"
 #include "posevote/teach/quality.hpp"
 
 namespace posevote::logic {
@@ -39,10 +39,12 @@ NodeOptions starting_options(const Settings& settings, const ObjectStore& store)
 std::unique_ptr<ObjectStore> open_database(const Settings& settings) {
   const auto given = settings.find("database");
   const std::string path = database_path(given == settings.end() ? "" : given->second);
-  std::error_code ignored;  // opening says what is wrong
   const fs::path folder = fs::path(path).parent_path();
-  if (!folder.empty()) fs::create_directories(folder, ignored);
-  return open_sqlite_store(path);
+  if (!is_server_address(path) && !folder.empty()) {
+    std::error_code ignored;  // opening says what is wrong
+    fs::create_directories(folder, ignored);
+  }
+  return open_store(path);
 }
 
 std::string timestamp() {
@@ -234,6 +236,9 @@ std::string ObjectRecognition::save(const std::string& path) const {
   const std::lock_guard lock(mutex_);
   std::string target = path;
   if (target.empty()) {
+    if (is_server_address(store_->location()))
+      throw Error(ErrorCode::invalid_argument,
+                  "a database on a server has no folder to save a copy in; give a path");
     fs::path beside = store_->location();
     beside.replace_filename(beside.stem().string() + "-" + timestamp() + ".db");
     target = beside.string();

@@ -51,7 +51,7 @@ class ObjectRecognition {
   /// Opens or makes the database. `settings`: options that differ from the defaults; those of the
   /// features default to the ones that the database was made with. Throws Error{invalid_argument}
   /// for an unknown option or a value out of range, Error{feature_mismatch} for features that the
-  /// database does not hold, and as `open_sqlite_store` does.
+  /// database does not hold, and as `open_store` does.
   explicit ObjectRecognition(const Settings& settings);
 
   /// Recognises in the camera's next picture; instances are followed from one call to the next.
@@ -79,8 +79,8 @@ class ObjectRecognition {
   void remove(const std::string& object, const std::string& view);
   /// The object stays active if it was.
   void rename(const std::string& from, const std::string& to);
-  /// Copies all objects into a new file; returns its path. "": beside the database, with
-  /// the time (UTC) in its name.
+  /// Copies all objects into a new file; returns its path. "": beside the database's file,
+  /// with the time (UTC) in its name.
   std::string save(const std::string& path) const;
   TransferResult export_to(const std::string& path, const std::vector<std::string>& names,
                            bool overwrite) const;

@@ -74,7 +74,7 @@ test("this device's camera teaches, and serves as the live source", async () => 
   await studio.shoot(page, "device");
   await page.goto(`${studio.address}/#/live`);
   await page.getByRole("button", { name: "Send this device's camera" }).click();
-  await expect.poll(() => page.locator(".stage-message").count(), { timeout: 20_000 }).toBe(0);
+  await expect.poll(() => page.locator(".stage-message").count()).toBe(0);
   await studio.stop();
 });
 

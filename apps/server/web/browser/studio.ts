@@ -10,6 +10,7 @@ import { chromium, type Browser, type BrowserContextOptions, type Page } from "p
 export const demo = needed("POSEVOTE_DEMO");
 const shots = process.env.POSEVOTE_SHOTS;
 
+const kFrameMs = 1000;
 const kFlags = [
   "--no-sandbox",
   "--disable-gpu",
@@ -75,10 +76,15 @@ export class Studio {
 
   readonly complaints: string[] = [];
 
-  /// Shows a picture of the demo set to the server's camera.
+  /// Holds a picture of the demo set before the server's camera, which sees it again and again.
   async show(path: string): Promise<void> {
-    await this.ask("POST", "live/frame", picture(path));
+    clearInterval(this.camera);
+    const frame = picture(path);
+    await this.ask("POST", "live/frame", frame);
+    this.camera = setInterval(() => void this.ask("POST", "live/frame", frame).catch(() => undefined), kFrameMs);
   }
+
+  private camera?: NodeJS.Timeout;
 
   async ask(method: string, path: string, body?: Uint8Array<ArrayBuffer> | string): Promise<Response> {
     const response = await fetch(`${this.address}/api/${path}`, {
@@ -113,6 +119,7 @@ export class Studio {
   }
 
   async stop(): Promise<void> {
+    clearInterval(this.camera);
     await this.browser.close();
     const ended = new Promise((done) => this.server.once("exit", done));
     if (this.server.exitCode === null && this.server.signalCode === null) {

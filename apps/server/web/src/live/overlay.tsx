@@ -26,13 +26,14 @@ export function Overlay({ width, height, detections, chosen }: Props) {
         })}
       </svg>
       {detections.map((found, i) => {
-        const [x, y] = found.box;
+        const [x, y, w] = found.box;
+        const at_right = x + w / 2 > width / 2; // there the name ends with the object, or it would be cut
         return (
           <span
             key={i}
             class="found-name"
             style={{
-              left: `${clamp((x / width) * 100)}%`,
+              [at_right ? "right" : "left"]: `${clamp(((at_right ? width - x - w : x) / width) * 100)}%`,
               top: `${clamp((y / height) * 100)}%`,
               borderColor: colour_of(found.object),
             }}

@@ -38,13 +38,16 @@ export class Painting {
   stroke(from: [number, number], to: [number, number], size: number, add: boolean): void {
     const pen = this.context;
     pen.globalCompositeOperation = add ? "source-over" : "destination-out";
-    pen.strokeStyle = "#fff";
+    pen.strokeStyle = pen.fillStyle = "#fff";
     pen.lineCap = pen.lineJoin = "round";
     pen.lineWidth = size;
     pen.beginPath();
     pen.moveTo(...from);
     pen.lineTo(...to);
     pen.stroke();
+    pen.beginPath(); // a line of no length leaves nothing
+    pen.arc(...to, size / 2, 0, 2 * Math.PI);
+    pen.fill();
     this.show();
   }
 

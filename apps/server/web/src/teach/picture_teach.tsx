@@ -1,5 +1,6 @@
 // Teaching from pictures: one after the other, the object found by the way that is chosen.
 import { useEffect, useState } from "preact/hooks";
+import { ActionButton } from "../ui/action_button";
 import { DropZone } from "../ui/drop_zone";
 import { Stage } from "../ui/stage";
 import { attempt, say } from "../ui/toast";
@@ -44,6 +45,10 @@ export function PictureTeach({ teaching }: { teaching: Teaching }) {
     URL.revokeObjectURL(now!.url);
     set_box(null);
     set_waiting((all) => all.slice(1));
+  };
+  const take = async (): Promise<void> => {
+    await teaching.accept();
+    next();
   };
   const use_as_background = (file: File): Promise<boolean> =>
     attempt(async () => {
@@ -95,13 +100,9 @@ export function PictureTeach({ teaching }: { teaching: Teaching }) {
           />
         </label>
         <Verdict teaching={teaching} waiting={way === "box" && !box ? "Draw a box around the object." : "Looking …"} />
-        <button
-          class="button primary"
-          disabled={!proposal?.usable || teaching.taking.value}
-          onClick={() => void attempt(async () => { await teaching.accept(); next(); })}
-        >
+        <ActionButton can={proposal?.usable === true && !teaching.taking.value} on_click={() => void attempt(take)}>
           Take this view
-        </button>
+        </ActionButton>
         <div class="row">
           <button class="button" disabled={!proposal} onClick={() => set_correcting(true)}>
             Correct the mask

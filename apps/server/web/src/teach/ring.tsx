@@ -29,7 +29,7 @@ export function Ring({ yaws, reach_deg, chosen, on_choose }: Props) {
               class={`side${is_done ? " done" : ""}${is_next ? " next" : ""}`}
               d={sector_path(yaw - kStep / 2 + 1.5, yaw + kStep / 2 - 1.5, 32, 50)}
               role="radio"
-              tabIndex={is_next ? 0 : -1}
+              tabindex={is_next ? 0 : -1}
               aria-checked={is_next}
               aria-label={`${degrees(yaw)}, ${is_done ? "covered" : "missing"}`}
               onClick={() => on_choose(yaw)}

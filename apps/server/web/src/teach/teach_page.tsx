@@ -60,7 +60,7 @@ export function TeachPage({ name }: { name: string }) {
       {way === "device" && <DeviceTeach teaching={teaching} />}
       {way === "pictures" && <PictureTeach teaching={teaching} />}
       {session && session.views.length > 0 && (
-        <section class="card teach-save" aria-label="Views and name">
+        <section class="card teach-save" aria-label="Taken so far">
           <div class="stack tight">
             <h2>{count(session.views.length, "view")} taken</h2>
             <TakenViews teaching={teaching} />

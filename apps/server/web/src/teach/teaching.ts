@@ -62,10 +62,15 @@ export class Teaching {
 
   /// Keeps the proposal in hand.
   async accept(): Promise<void> {
-    const session = await api.accept_view(await this.id(), this.yaw.value ?? undefined);
-    this.session.value = session;
-    this.proposal.value = null;
-    if (this.yaw.value != null) this.yaw.value = next_side(session);
+    this.taking.value = true;
+    try {
+      const session = await api.accept_view(await this.id(), this.yaw.value ?? undefined);
+      this.session.value = session;
+      this.proposal.value = null;
+      if (this.yaw.value != null) this.yaw.value = next_side(session);
+    } finally {
+      this.taking.value = false;
+    }
   }
 
   async correct_mask(mask: Blob): Promise<void> {

@@ -1,5 +1,6 @@
 // Teaching by turning the object before a camera: background, then side by side round the ring.
 import { useEffect, useState } from "preact/hooks";
+import { ActionButton } from "../ui/action_button";
 import { attempt } from "../ui/toast";
 import { ProposalMask } from "./proposal_mask";
 import { Ring } from "./ring";
@@ -36,16 +37,25 @@ export function Turntable({ teaching, ready, grab }: Props) {
   const views = session?.views ?? [];
   return (
     <div class="stack turntable">
-      <Instruction step={!background ? 0 : views.length === 0 ? 1 : session!.enough ? 3 : 2} />
+      <div class="turntable-step">
+        <Instruction step={!background ? 0 : views.length === 0 ? 1 : session!.enough ? 3 : 2} />
+        {background && (
+          <Ring
+            yaws={views.map((view) => view.yaw).filter((yaw) => yaw != null)}
+            reach_deg={kTurnDeg / 2}
+            chosen={teaching.yaw.value ?? 0}
+            on_choose={(yaw) => (teaching.yaw.value = yaw)}
+          />
+        )}
+      </div>
       <div class="stack tight turntable-act">
         {background && <Verdict teaching={teaching} waiting="Looking for the object …" />}
-        <button
-          class="button primary"
-          disabled={!ready || busy || (background && !proposal?.usable)}
-          onClick={() => void (background ? take() : take_background())}
+        <ActionButton
+          can={ready && !busy && (!background || proposal?.usable === true)}
+          on_click={() => void (background ? take() : take_background())}
         >
           {background ? "Take this view" : "The table is empty"}
-        </button>
+        </ActionButton>
       </div>
       {background && (
         <div class="row">
@@ -56,14 +66,6 @@ export function Turntable({ teaching, ready, grab }: Props) {
             New background
           </button>
         </div>
-      )}
-      {background && (
-        <Ring
-          yaws={views.map((view) => view.yaw).filter((yaw) => yaw != null)}
-          reach_deg={kTurnDeg / 2}
-          chosen={teaching.yaw.value ?? 0}
-          on_choose={(yaw) => (teaching.yaw.value = yaw)}
-        />
       )}
       {correcting && (
         <ProposalMask

@@ -25,7 +25,8 @@ export function use_brush(painting: Painting | null, brush: Brush, on_stroke: ()
     ];
   };
   const paint = (from: Place, to: Place): void => {
-    painting?.stroke(from, to, brush.size, brush.add);
+    if (!painting) return;
+    painting.stroke(from, to, brush.size, brush.add);
     on_stroke();
   };
 

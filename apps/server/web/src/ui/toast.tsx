@@ -10,7 +10,7 @@ interface Toast {
 }
 
 const toasts = signal<Toast[]>([]);
-const kShownMs = 8000;
+const kShownMs = 6000;
 let last_id = 0;
 
 function remove(id: number): void {
@@ -19,7 +19,7 @@ function remove(id: number): void {
 
 export function say(text: string, action?: Toast["action"], kind: Toast["kind"] = "info"): void {
   const id = ++last_id;
-  toasts.value = [...toasts.value.slice(-2), { id, text, kind, action }];
+  toasts.value = [...toasts.value.slice(-1), { id, text, kind, action }];
   setTimeout(() => remove(id), action ? 2 * kShownMs : kShownMs);
 }
 

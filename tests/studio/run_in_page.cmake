@@ -1,0 +1,10 @@
+# cmake -DNODE=... -DPAGE=... -DSCRIPT=FILE;ARGUMENT... -P run_in_page.cmake
+list(POP_FRONT SCRIPT file)
+if(NOT EXISTS ${PAGE}/node_modules/${file})
+  message("skipped: the page was not built")
+  return()
+endif()
+execute_process(COMMAND ${NODE} node_modules/${file} ${SCRIPT} WORKING_DIRECTORY ${PAGE} RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "${file} ended with ${failed}")
+endif()

@@ -11,12 +11,19 @@ add_library(posevote_ros_node
   ros1/nodelet.cpp
   ros1/parameters.cpp
   ros1/services.cpp
-  ros1/teach_action.cpp)
+  ros1/teach_action.cpp
+  ros1/vision.cpp)
 target_include_directories(posevote_ros_node PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_include_directories(posevote_ros_node SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
 target_link_libraries(posevote_ros_node PUBLIC posevote_ros_logic ${catkin_LIBRARIES})
 target_compile_options(posevote_ros_node PRIVATE -Wall -Wextra)
 add_dependencies(posevote_ros_node ${catkin_EXPORTED_TARGETS})
+
+find_package(vision_msgs QUIET) # not in Debian
+if(vision_msgs_FOUND)
+  target_compile_definitions(posevote_ros_node PRIVATE POSEVOTE_WITH_VISION_MSGS)
+  target_include_directories(posevote_ros_node SYSTEM PRIVATE ${vision_msgs_INCLUDE_DIRS})
+endif()
 
 add_executable(posevote_node ros1/main.cpp)
 target_link_libraries(posevote_node PRIVATE posevote_ros_node)

@@ -84,6 +84,12 @@ bool DatabaseState::is_active(const std::string& object) const {
   return active.empty() || std::find(active.begin(), active.end(), object) != active.end();
 }
 
+int DatabaseState::place_of(const std::string& object) const {
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (objects[i].name == object) return static_cast<int>(i);
+  return -1;
+}
+
 ObjectRecognition::ObjectRecognition(const Settings& settings)
     : store_(open_database(settings)), version_(store_->version()) {
   const NodeOptions options = starting_options(settings, *store_);

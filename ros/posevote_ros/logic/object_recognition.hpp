@@ -41,6 +41,8 @@ struct DatabaseState {
   std::vector<ObjectSummary> objects;
   std::vector<std::string> active;  ///< empty: all
   [[nodiscard]] bool is_active(const std::string& object) const;
+  /// Its place in `objects`, from 0; -1: it is not there.
+  [[nodiscard]] int place_of(const std::string& object) const;
 };
 
 /// Safe to call from many threads: teaching and services may change the database while another

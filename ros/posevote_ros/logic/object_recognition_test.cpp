@@ -157,6 +157,8 @@ TEST_F(ObjectRecognitionTest, RemovesAndRenames) {
   (void)node.teach("a", whole(poster_), "test");
   node.rename("a", "b");
   EXPECT_THAT(names(node.database()), ElementsAre("b"));
+  EXPECT_EQ(node.database().place_of("b"), 0);
+  EXPECT_EQ(node.database().place_of("a"), -1);
   EXPECT_EQ(node.recognize(scene_, {}).objects.at(0).detection.object, "b");
   EXPECT_THROW(node.rename("a", "c"), Error);
   EXPECT_THROW(node.remove("b", "no such view"), Error);

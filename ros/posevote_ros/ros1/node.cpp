@@ -52,6 +52,8 @@ Node::~Node() {
 }
 
 void Node::advertise(ros::NodeHandle& private_nh) {
+  // Listeners may come before all of these are made.
+  const std::lock_guard<std::mutex> lock(subscription_mutex_);
   const auto connected = [this](const auto&) { update_subscription(); };
   detections_ =
       private_nh.advertise<posevote_msgs::DetectionArray>("detections", 1, connected, connected);
@@ -69,7 +71,8 @@ void Node::demand(int change) {
 
 bool Node::is_listened_to() const {
   return detections_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0 ||
-         annotated_.getNumSubscribers() > 0 || recognition_.options().publish_tf;
+         annotated_.getNumSubscribers() > 0 || (vision_ && vision_->is_listened_to()) ||
+         recognition_.options().publish_tf;
 }
 
 void Node::update_subscription() {
@@ -102,6 +105,7 @@ void Node::publish(const Frame& frame, const cv::Mat& picture, const logic::Find
   detections.header = frame.header;
   logic::fill_detections(detections, findings, dropped);
   detections_.publish(detections);
+  vision_->publish(findings, frame.header, recognition_);
   if (markers_.getNumSubscribers() > 0) {
     visualization_msgs::MarkerArray markers;
     logic::fill_markers(markers, findings, frame.header);

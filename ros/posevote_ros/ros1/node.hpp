@@ -15,6 +15,7 @@
 #include "logic/object_recognition.hpp"
 #include "ros1/camera_input.hpp"
 #include "ros1/parameters.hpp"
+#include "ros1/vision.hpp"
 
 namespace posevote::ros1 {
 
@@ -69,6 +70,7 @@ class Node {
   logic::Latest<Frame> frames_;
 
   ros::Publisher detections_, markers_, database_;
+  std::unique_ptr<VisionPublisher> vision_;
   image_transport::Publisher annotated_;
   tf2_ros::TransformBroadcaster transforms_;
   diagnostic_updater::Updater diagnostics_;

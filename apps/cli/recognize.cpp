@@ -13,6 +13,7 @@
 #include "posevote/image/inputs.hpp"
 #include "posevote/json/recognition_json.hpp"
 #include "posevote/render/annotate.hpp"
+#include "posevote/store/follower.hpp"
 #include "progress.hpp"
 #include "recognition_table.hpp"
 #include "settings.hpp"
@@ -51,12 +52,11 @@ class LiveRecognizer {
 
   RecognitionResult recognize(const cv::Mat& image) { return recognizer_.recognize(image); }
 
-  /// Takes over what others have taught meanwhile.
-  void refresh() {
-    const std::int64_t version = store_->version();
-    if (version == version_) return;
-    recognizer_.set_models(store_->load());
-    version_ = version;
+  /// From now on takes over what others teach as soon as they do, without holding up a frame.
+  void follow() {
+    if (follower_) return;
+    follower_ = std::make_unique<Follower>(
+        store_, version_, [this](const auto& models) { recognizer_.set_models(models); });
   }
 
  private:
@@ -68,9 +68,10 @@ class LiveRecognizer {
     return options;
   }
 
-  std::unique_ptr<ObjectStore> store_;
+  std::shared_ptr<ObjectStore> store_;
   std::int64_t version_;
   Recognizer recognizer_;
+  std::unique_ptr<Follower> follower_;
 };
 
 /// Where in a stream a result comes from.
@@ -157,6 +158,7 @@ std::optional<Frame> next_frame(FrameSource& stream) {
 void recognize_stream(const Input& input, int every, LiveRecognizer& recognizer, Reporter& reporter,
                       RecognitionTotals& totals) {
   const auto stream = open_stream(input);
+  recognizer.follow();
   ProgressBar progress(input.path, static_cast<std::size_t>(stream->length()));
   RecognitionTotals here;
   while (!interrupted) {
@@ -165,7 +167,6 @@ void recognize_stream(const Input& input, int every, LiveRecognizer& recognizer,
     progress.advance(static_cast<std::size_t>(frame->dropped) + 1);
     here.add_dropped(frame->dropped);
     if (frame->number % every != 0) continue;
-    recognizer.refresh();
     const RecognitionResult result = recognizer.recognize(frame->image);
     here.add(result);
     progress.clear();

@@ -78,6 +78,7 @@ auto without_gil(Work work) {
 }
 
 /// Each adds its part to the module.
+void bind_images(py::module_& module);
 void bind_features(py::module_& module);
 void bind_teaching(py::module_& module);
 void bind_recognition(py::module_& module);

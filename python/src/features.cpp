@@ -1,20 +1,26 @@
 #include "features.hpp"
 
-#include <pybind11/stl/filesystem.h>
-
 #include <cstring>
-
-#include "posevote/image/read_image.hpp"
 
 namespace posevote::python {
 namespace {
 
 using Shared = std::shared_ptr<Features>;
 
+/// Not made before it is needed: the package can be imported, e.g. for its stubs, without numpy.
+py::dtype keypoint_type() {
+  static const bool known = [] {
+    PYBIND11_NUMPY_DTYPE(Keypoint, x, y, scale, angle, response, laplacian);
+    return true;
+  }();
+  static_cast<void>(known);
+  return py::dtype::of<Keypoint>();
+}
+
 py::array keypoints_of(const py::object& self) {
   auto& features = self.cast<Features&>();
-  py::array array(py::dtype::of<Keypoint>(), {features.size()}, {sizeof(Keypoint)},
-                  features.keypoints.data(), self);
+  py::array array(keypoint_type(), {features.size()}, {sizeof(Keypoint)}, features.keypoints.data(),
+                  self);
   array.attr("setflags")(py::arg("write") = false);
   return array;
 }
@@ -118,7 +124,6 @@ void bind_extractor(py::module_& module, const char* name, const char* kind,
 }  // namespace
 
 void bind_features(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(Keypoint, x, y, scale, angle, response, laplacian);
   py::class_<Features, Shared>(
       module, "Features",
       "Key points and one descriptor each, in one order, strongest first.\n\n"
@@ -181,35 +186,6 @@ void bind_features(py::module_& module) {
   bind_extractor<Sift>(module, "Sift", "sift",
                        "OpenCV's SIFT (Lowe 2004) with RootSIFT descriptors.");
   module.def("_extractor_options", &extractor_options);
-
-  module.def(
-      "read_image",
-      [](const std::filesystem::path& path) {
-        return to_array(without_gil([&] { return read_image(path.string()); }));
-      },
-      py::arg("path"),
-      "read_image(path) -> numpy.ndarray\n\n"
-      "The picture in a file (JPEG, PNG, TIFF, WebP, BMP or PNM) as a read-only array: H x W, or\n"
-      "H x W x 3 (BGR) or 4 (BGRA), uint8 or uint16, turned upright as its Exif data say.\n"
-      "Raises UnreadableImageError.");
-  module.def(
-      "decode_image",
-      [](const py::bytes& data, const std::string& name) {
-        const std::string text = data;
-        return to_array(without_gil([&] {
-          return decode_image({text.begin(), text.end()}, name);
-        }));
-      },
-      py::arg("data"), py::arg("name") = "picture",
-      "decode_image(data, name='picture') -> numpy.ndarray\n\n"
-      "The picture in these bytes, as read_image() gives it; `name` stands for it in messages.");
-  module.def(
-      "reads_in_place", [](const py::object& image) { return picture_of(image).in_place; },
-      py::arg("image"),
-      "reads_in_place(image) -> bool\n\n"
-      "Whether the library reads this array where it lies. False: its pixels do not stand one "
-      "after\n"
-      "the other (e.g. image[..., ::-1]), so that each call makes a copy first.");
 }
 
 }  // namespace posevote::python

@@ -51,6 +51,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = POSEVOTE_VERSION;
   py::register_exception_translator(&translate);
   module.def("_error_codes", &error_codes);
+  bind_images(module);
   bind_features(module);
   bind_teaching(module);
   bind_recognition(module);

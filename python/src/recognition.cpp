@@ -48,7 +48,7 @@ py::tuple detection_state(const Detection& d) {
   for (const MatchedPoint& m : d.matches)
     matches.insert(matches.end(), {m.view.x, m.view.y, m.scene.x, m.scene.y});
   return py::make_tuple(d.object, d.view, d.confidence, d.probability, d.log10_false_alarms,
-                        d.coverage, d.inliers, d.features_in_area, homography, outline, box_of(d),
+                        d.inliers, d.features_in_area, homography, outline, box_of(d),
                         d.alternatives, matches);
 }
 
@@ -59,18 +59,17 @@ Detection detection_from(const py::tuple& state) {
   d.confidence = state[2].cast<double>();
   d.probability = state[3].cast<double>();
   d.log10_false_alarms = state[4].cast<double>();
-  d.coverage = state[5].cast<double>();
-  d.inliers = state[6].cast<int>();
-  d.features_in_area = state[7].cast<int>();
-  const auto homography = state[8].cast<std::vector<double>>();
+  d.inliers = state[5].cast<int>();
+  d.features_in_area = state[6].cast<int>();
+  const auto homography = state[7].cast<std::vector<double>>();
   for (std::size_t i = 0; i < 9; ++i) d.scene_from_view.val[i] = homography.at(i);
-  const auto outline = state[9].cast<std::vector<float>>();
+  const auto outline = state[8].cast<std::vector<float>>();
   for (std::size_t i = 0; i + 1 < outline.size(); i += 2)
     d.outline.emplace_back(outline[i], outline[i + 1]);
-  const auto box = state[10].cast<std::vector<double>>();
+  const auto box = state[9].cast<std::vector<double>>();
   d.box = {box.at(0), box.at(1), box.at(2), box.at(3)};
-  d.alternatives = state[11].cast<std::vector<std::string>>();
-  const auto matches = state[12].cast<std::vector<float>>();
+  d.alternatives = state[10].cast<std::vector<std::string>>();
+  const auto matches = state[11].cast<std::vector<float>>();
   for (std::size_t i = 0; i + 3 < matches.size(); i += 4)
     d.matches.push_back({{matches[i], matches[i + 1]}, {matches[i + 2], matches[i + 3]}});
   return d;
@@ -86,8 +85,6 @@ void bind_detection(py::module_& module) {
       .def_readonly("probability", &Detection::probability, "That it is no accident, 0 to 1.")
       .def_readonly("log10_false_alarms", &Detection::log10_false_alarms,
                     "log10 of the expected number of such accidents per picture.")
-      .def_readonly("coverage", &Detection::coverage,
-                    "Share of the view's features in the part of it that was seen.")
       .def_readonly("inliers", &Detection::inliers, "Matched features that agree on the pose.")
       .def_readonly("features_in_area", &Detection::features_in_area,
                     "Features of the scene inside the outline.")
@@ -208,6 +205,12 @@ void bind_result(py::module_& module) {
           py::arg("image") = "",
           "to_dict(image='') -> dict\n\nThe line of 'posevote recognize --json' for picture "
           "`image`.")
+      .def(
+          "to_json",
+          [](const RecognitionResult& r, const std::string& image) {
+            return to_line(to_json(r, image));
+          },
+          py::arg("image") = "", "to_json(image='') -> str\n\nThe same line as text.")
       .def("__repr__",
            [](const SharedResult& r) {
              return "Recognition(" + std::to_string(r->image_size.width) + " x " +

@@ -1,6 +1,8 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
+
 #include "posevote/store/open_store.hpp"
 #include "posevote/store/transfer.hpp"
 #include "views.hpp"
@@ -215,6 +217,20 @@ void bind_reading(py::class_<PyStore, std::shared_ptr<PyStore>>& store) {
           [](const PyStore& self) { return with(self, [](ObjectStore& s) { return s.list(); }); },
           "objects() -> list[ObjectSummary]\n\n"
           "List of ObjectSummary, by name.")
+      .def(
+          "wait_for_change",
+          [](const PyStore& self, std::int64_t known, double timeout_s) {
+            const std::chrono::duration<double> timeout(std::clamp(timeout_s, 0.0, 1e6));
+            return with(self, [&](ObjectStore& s) {
+              return s.wait_for_change(
+                  known, std::chrono::duration_cast<std::chrono::milliseconds>(timeout));
+            });
+          },
+          py::arg("known"), py::arg("timeout_s"),
+          "wait_for_change(known, timeout_s) -> bool\n\n"
+          "Wait until `version` is no longer `known`, whichever program changes it; False when "
+          "that\n"
+          "does not happen within that many seconds. Other threads run meanwhile.")
       .def(
           "views",
           [](const PyStore& self, const std::string& name) {

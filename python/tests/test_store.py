@@ -1,8 +1,9 @@
 """Databases of objects."""
 
-import subprocess
-import os
 import json
+import os
+import subprocess
+import threading
 
 import numpy as np
 import pytest
@@ -107,6 +108,23 @@ def test_objects_are_copied_and_exported(store, poster, tmp_path):
             assert merged.to_dict() == {"objects": 1, "views_added": 0, "views_known": 1}
             with pytest.raises(posevote.InvalidArgumentError):
                 other.copy_from(file, on_conflict="perhaps")
+
+
+def test_changes_of_others_can_be_waited_for(store, poster, tmp_path):
+    version = store.version
+    assert not store.wait_for_change(version, 0.01)
+
+    def teach():
+        with posevote.ObjectStore(store.location) as other:
+            other.add_view("poster", poster)
+
+    thread = threading.Thread(target=teach)
+    thread.start()
+    assert store.wait_for_change(version, 60)
+    thread.join()
+    recognizer = posevote.Recognizer({})
+    recognizer.set_models(store)
+    assert recognizer.models.names == ["poster"]
 
 
 def test_what_is_no_database_is_said(tmp_path):

@@ -1,6 +1,7 @@
 #include "posevote/store/open_store.hpp"
 
 #include "posevote/core/error.hpp"
+#include "posevote/store/address.hpp"
 #include "posevote/store/sqlite/sqlite_store.hpp"
 #ifdef POSEVOTE_WITH_POSTGRES
 #include "posevote/store/postgres/postgres_store.hpp"
@@ -19,7 +20,9 @@ std::unique_ptr<ObjectStore> open_store(const std::string& location, Access acce
     options.access = access;
     return open_postgres_store(location, options);
 #else
-    throw Error(ErrorCode::unsupported, "this build cannot use PostgreSQL; name a file instead");
+    throw Error(ErrorCode::unsupported, "this build cannot use PostgreSQL, which '" +
+                                            without_passwords(location) +
+                                            "' needs; name a file instead");
 #endif
   }
   SqliteOptions options;

@@ -1,0 +1,122 @@
+// The commands with a database on a PostgreSQL server.
+#include "posevote/store/postgres/postgres_store.hpp"
+
+#include <arpa/inet.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "posevote/json/recognition_json.hpp"
+#include "posevote/store/postgres/test_server.hpp"
+#include "posevote/store/sqlite/sqlite_store.hpp"
+#include "posevote/store/sync.hpp"
+#include "program.hpp"
+
+namespace posevote {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class SharedDatabase : public Program {
+ protected:
+  void SetUp() override {
+    if (!server_.runs()) GTEST_SKIP() << "no test server; run ctest";
+    server_.make(name_);
+  }
+
+  const postgres::TestServer server_;
+  const std::string name_ = folder_.substr(folder_.rfind('/') + 1);
+  const std::string address_ = server_.address(name_);
+};
+
+/// A line of `recognize --json` without its times.
+Json without_times(const std::string& line) {
+  Json json = Json::parse(line);
+  json.erase("time_ms");
+  return json;
+}
+
+TEST_F(SharedDatabase, TaughtAndRecognisedAsInAFile) {
+  for (const std::string& database : {database(), address_}) {
+    const Outcome taught =
+        run({"teach", "poster", demo("train/poster/cover.jpg"), "--db", database});
+    EXPECT_EQ(taught.status, 0) << taught.err;
+  }
+  const std::string scene = demo("test/reading.jpg");
+  const Outcome by_file = run({"recognize", scene, "--json"});
+  const Outcome by_server = run({"recognize", scene, "--json", "--db", address_});
+  ASSERT_EQ(by_server.status, 0) << by_server.err;
+  EXPECT_EQ(without_times(by_server.lines().at(0)), without_times(by_file.lines().at(0)));
+  const Outcome difference = run({"objects", "diff", database(), address_, "--json"});
+  EXPECT_EQ(Json::parse(difference.lines().at(0))["in_both"], 1);
+  EXPECT_EQ(run({"objects", "rename", "poster", "big poster", "--db", address_}).status, 0);
+  EXPECT_THAT(run({"objects", "list", "--names", "--db", address_}).out, "big poster\n");
+  EXPECT_EQ(run({"objects", "export", path("all.posevote"), "--db", address_}).status, 0);
+  EXPECT_EQ(open_sqlite_store(path("all.posevote"))->list().size(), 1U);
+}
+
+TEST_F(SharedDatabase, ARobotThatWasAwayComesBack) {
+  ASSERT_EQ(run({"teach", "poster", demo("train/poster/cover.jpg"), "--db", address_}).status, 0);
+  ASSERT_EQ(run({"sync", address_}).status, 0);
+  // Away: it teaches into its own database, others into the shared one; one of them tidies up.
+  ASSERT_EQ(run({"teach", "soup", demo("train/soup/y000.jpg"), "--whole"}).status, 0);
+  ASSERT_EQ(run({"teach", "mug", demo("train/mug/y000.jpg"), "--whole", "--db", address_}).status,
+            0);
+  ASSERT_EQ(run({"objects", "remove", "poster", "--db", address_}).status, 0);
+  const Outcome back = run({"sync", address_, "--json"});
+  ASSERT_EQ(back.status, 0) << back.err;
+  const Json report = Json::parse(back.lines().at(0));
+  EXPECT_EQ(report["sent"].size(), 1U);
+  EXPECT_EQ(report["received"].size(), 1U);
+  EXPECT_EQ(report["removed_here"].size(), 1U);
+  for (const std::string& database : {database(), address_})
+    EXPECT_EQ(run({"objects", "list", "--names", "--db", database}).out, "mug\nsoup\n");
+}
+
+TEST_F(SharedDatabase, ASyncThatLosesItsConnectionIsSimplyRunAgain) {
+  const auto here = open_sqlite_store(database());
+  const auto there = open_postgres_store(address_);
+  const FeatureRecord features = record_features({});
+  for (int i = 0; i < 30; ++i)
+    (i % 3 ? *here : *there).add_view("mug", made_view(i, 400), features);
+  std::size_t views = 0;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    const pid_t child = start({"sync", address_});
+    while (there->list().empty() || list_views(*there).size() <= views)
+      if (waitpid(child, nullptr, WNOHANG) != 0) break;
+    server_.break_connections(name_);
+    waitpid(child, nullptr, 0);
+    EXPECT_GE(list_views(*there).size(), views);
+    views = list_views(*there).size();
+  }
+  EXPECT_EQ(run({"sync", address_}).status, 0);
+  EXPECT_EQ(compare_views(list_views(*here), list_views(*there)).in_both, 30U);
+}
+
+TEST_F(SharedDatabase, NoPasswordIsInTheListOfProcesses) {
+  // A server that takes the call and never answers: the program waits for it.
+  const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&place), sizeof place), 0);
+  ASSERT_EQ(listen(listener, 1), 0);
+  socklen_t size = sizeof place;
+  getsockname(listener, reinterpret_cast<sockaddr*>(&place), &size);
+  const std::string port = std::to_string(ntohs(place.sin_port));
+  const pid_t child =
+      start({"objects", "list", "--db", "postgresql://robot:secret@127.0.0.1:" + port + "/db"});
+  const int call = accept(listener, nullptr, nullptr);
+  const std::string words = content("/proc/" + std::to_string(child) + "/cmdline");
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  close(call);
+  close(listener);
+  EXPECT_THAT(words, HasSubstr("robot:***@127.0.0.1"));
+  EXPECT_THAT(words, Not(HasSubstr("secret")));
+}
+
+}  // namespace
+}  // namespace posevote

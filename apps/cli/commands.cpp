@@ -7,7 +7,8 @@
 namespace posevote::cli {
 
 void add_commands(CLI::App& app, CommandContext& context) {
-  for (const auto add : {add_teach, add_recognize, add_objects, add_sync}) add(app, context);
+  for (const auto add : {add_teach, add_recognize, add_batch, add_objects, add_sync})
+    add(app, context);
 #ifdef POSEVOTE_WITH_SERVER
   add_serve(app, context);
 #endif

@@ -5,6 +5,7 @@
 
 namespace posevote::cli {
 
+void add_batch(CLI::App& app, CommandContext& context);
 void add_bench(CLI::App& app, CommandContext& context);
 void add_completion(CLI::App& app, CommandContext& context);
 void add_dataset(CLI::App& app, CommandContext& context);

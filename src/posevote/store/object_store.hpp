@@ -52,6 +52,12 @@ struct AddResult {
   bool added = true;  ///< false: it was there already, under this id
 };
 
+/// Bytes that are made of the objects.
+struct Derived {
+  std::int64_t version = 0;  ///< `ObjectStore::version` of what they were made of
+  std::string bytes;
+};
+
 struct LoadOptions {
   bool pictures = false;  ///< also decode View::picture and View::mask
 };
@@ -118,6 +124,12 @@ class ObjectStore {
   /// A text that is kept beside the objects under a key of the caller's; "" when there is none.
   [[nodiscard]] virtual std::string note(const std::string& key) const = 0;
   virtual void set_note(const std::string& key, const std::string& text) = 0;
+
+  /// What was kept under a key by `set_derived`; empty when there is none.
+  [[nodiscard]] virtual Derived derived(const std::string& key) const = 0;
+  /// Keeps bytes that are made of the objects and could be made again, such as a search index. No
+  /// change to `version()`, and not for use within `transact`.
+  virtual void set_derived(const std::string& key, const Derived& derived) = 0;
 
   /// Makes the features of all views and impostors again, as one change. What `maker` throws ends
   /// it.

@@ -364,6 +364,21 @@ TEST_P(Store, ImpostorsCanBeListedSeenAndRemoved) {
   EXPECT_TRUE(store_->impostors().empty());
 }
 
+TEST_P(Store, DerivedBytesAreKeptAndAreNoChange) {
+  store_->add_view("mug", made_view(1), surf);
+  const std::int64_t version = store_->version();
+  EXPECT_EQ(store_->derived("index").bytes, "");
+  const std::string bytes("\0\xff\n\0", 4);
+  store_->set_derived("index", {7, "old"});
+  store_->set_derived("index", {version, bytes});
+  EXPECT_EQ(open()->derived("index").bytes, bytes);
+  EXPECT_EQ(open()->derived("index").version, version);
+  EXPECT_EQ(store_->derived("other").bytes, "");
+  EXPECT_EQ(store_->version(), version);
+  store_->set_derived("index", {version, ""});
+  EXPECT_EQ(store_->derived("index").bytes, "");
+}
+
 TEST_P(Store, NotesAreKeptUnderTheirKeys) {
   EXPECT_EQ(store_->note("a"), "");
   store_->set_note("a", "1\nñ");

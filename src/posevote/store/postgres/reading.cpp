@@ -290,6 +290,15 @@ std::string PostgresStore::note(const std::string& key) const {
   });
 }
 
+Derived PostgresStore::derived(const std::string& key) const {
+  return reading([&]() -> Derived {
+    const auto row =
+        work_->exec_params("SELECT version, bytes FROM posevote.derived WHERE key = $1", key);
+    if (row.empty()) return {};
+    return {row[0][0].as<std::int64_t>(), pqxx::binarystring(row[0][1]).str()};
+  });
+}
+
 }  // namespace postgres
 
 std::unique_ptr<ObjectStore> open_postgres_store(const std::string& address,

@@ -29,6 +29,6 @@ ALTER DEFAULT PRIVILEGES IN SCHEMA posevote GRANT SELECT ON TABLES TO posevote_r
 
 GRANT INSERT ON posevote.object, posevote.view, posevote.impostor TO posevote_teacher;
 GRANT UPDATE (next_number) ON posevote.object TO posevote_teacher;
-GRANT INSERT, UPDATE ON posevote.features, posevote.note TO posevote_teacher;
+GRANT INSERT, UPDATE ON posevote.features, posevote.note, posevote.derived TO posevote_teacher;
 
 GRANT UPDATE, DELETE ON posevote.object, posevote.view, posevote.impostor TO posevote_administrator;

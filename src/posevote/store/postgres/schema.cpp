@@ -76,6 +76,13 @@ CREATE TABLE posevote.impostor (
 CREATE TRIGGER tell AFTER INSERT OR DELETE OR UPDATE ON posevote.impostor
   FOR EACH ROW EXECUTE FUNCTION posevote.tell();
 )sql",
+    // 3: what is made of the objects and can be made again
+    R"sql(
+CREATE TABLE posevote.derived (
+  key text PRIMARY KEY,
+  version bigint NOT NULL,
+  bytes bytea NOT NULL);
+)sql",
 };
 
 }  // namespace

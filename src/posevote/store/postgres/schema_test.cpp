@@ -60,7 +60,7 @@ TEST_F(PostgresSchema, EveryOlderOneBecomesTheNewest) {
 
 TEST_F(PostgresSchema, ObjectsOfTheFirstSchemaAreStillThere) {
   open_postgres_store(server_.address(database_))->add_view("mug", made_view(1), surf);
-  server_.run(database_, "DROP TABLE posevote.impostor");
+  server_.run(database_, "DROP TABLE posevote.impostor, posevote.derived");
   server_.run(database_, "UPDATE posevote.meta SET value = 1 WHERE key = 'schema'");
   const auto store = open_postgres_store(server_.address(database_));
   EXPECT_EQ(present(), newest_schema);
@@ -168,7 +168,7 @@ TEST_F(PostgresRoles, AnAdministratorDoesEverythingWithObjects) {
 }
 
 TEST_F(PostgresRoles, OnlyTheOwnerMigrates) {
-  server_.run(database_, "DROP TABLE posevote.impostor");
+  server_.run(database_, "DROP TABLE posevote.impostor, posevote.derived");
   server_.run(database_, "UPDATE posevote.meta SET value = 1 WHERE key = 'schema'");
   for (const char* role : {"reader", "teacher", "administrator"})
     EXPECT_THAT(error_of([&] { static_cast<void>(as(role)); }),

@@ -178,6 +178,15 @@ void PostgresStore::set_note(const std::string& key, const std::string& text) {
   });
 }
 
+void PostgresStore::set_derived(const std::string& key, const Derived& derived) {
+  transact([&] {
+    work_->exec_params0(
+        "INSERT INTO posevote.derived VALUES ($1, $2, $3) ON CONFLICT (key) DO UPDATE SET version "
+        "= excluded.version, bytes = excluded.bytes",
+        key, derived.version, pqxx::binarystring(derived.bytes));
+  });
+}
+
 void PostgresStore::rebuild(const FeatureRecord& features, const FeatureMaker& maker) {
   transact([&] {
     for (const pqxx::row row : work_->exec("SELECT id FROM posevote.view ORDER BY id"))

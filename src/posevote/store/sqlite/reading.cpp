@@ -209,6 +209,15 @@ std::string SqliteStore::note(const std::string& key) const {
   });
 }
 
+Derived SqliteStore::derived(const std::string& key) const {
+  return reading([&]() -> Derived {
+    Statement row(database_, "SELECT version, bytes FROM derived WHERE key = ?");
+    row.bind(1, key);
+    if (!row.executeStep()) return {};
+    return {row.getColumn(0).getInt64(), row.getColumn(1).getString()};
+  });
+}
+
 }  // namespace sqlite
 
 std::unique_ptr<ObjectStore> open_sqlite_store(const std::string& path,

@@ -60,6 +60,10 @@ CREATE TABLE impostor (
   descriptors BLOB NOT NULL,
   picture BLOB NOT NULL);
 )sql",
+    // 3: what is made of the objects and can be made again
+    R"sql(
+CREATE TABLE derived (key TEXT PRIMARY KEY, version INTEGER NOT NULL, bytes BLOB NOT NULL);
+)sql",
 };
 
 }  // namespace

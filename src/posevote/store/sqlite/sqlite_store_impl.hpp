@@ -31,6 +31,7 @@ class SqliteStore : public ObjectStore {
   std::vector<ImpostorSummary> impostors() const override;
   Impostor impostor(const std::string& id) const override;
   std::string note(const std::string& key) const override;
+  Derived derived(const std::string& key) const override;
 
   AddResult add_view(const std::string& object, const TaughtView& view,
                      const FeatureRecord& features) override;
@@ -40,6 +41,7 @@ class SqliteStore : public ObjectStore {
   AddResult add_impostor(const Impostor& impostor, const FeatureRecord& features) override;
   void remove_impostor(const std::string& id) override;
   void set_note(const std::string& key, const std::string& text) override;
+  void set_derived(const std::string& key, const Derived& derived) override;
   void rebuild(const FeatureRecord& features, const FeatureMaker& maker) override;
   void transact(const std::function<void()>& work) override;
 

@@ -184,6 +184,19 @@ void SqliteStore::set_note(const std::string& key, const std::string& text) {
   });
 }
 
+void SqliteStore::set_derived(const std::string& key, const Derived& derived) {
+  const std::lock_guard lock(mutex_);
+  guarded(path_, [&] {
+    SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+    Statement insert(database_, "INSERT OR REPLACE INTO derived VALUES (?, ?, ?)");
+    insert.bind(1, key);
+    insert.bind(2, derived.version);
+    insert.bindNoCopy(3, derived.bytes.data(), static_cast<int>(derived.bytes.size()));
+    insert.exec();
+    transaction.commit();
+  });
+}
+
 std::vector<std::int64_t> SqliteStore::row_ids(const std::string& table) const {
   std::vector<std::int64_t> ids;
   Statement row(database_, "SELECT id FROM " + table + " ORDER BY id");

@@ -15,7 +15,7 @@ beforeAll(async () => {
 afterAll(() => studio.stop());
 
 async function names(): Promise<string[]> {
-  const { objects } = (await (await studio.ask("GET", "objects")).json()) as { objects: { object: string }[] };
+  const { objects } = await studio.ask<{ objects: { object: string }[] }>("GET", "objects");
   return objects.map(({ object }) => object);
 }
 
@@ -74,7 +74,7 @@ test("a taught mask is corrected", async () => {
 });
 
 async function masks(): Promise<number[]> {
-  const { views } = (await (await studio.ask("GET", "objects/mug")).json()) as { views: { coverage: number }[] };
+  const { views } = await studio.ask<{ views: { coverage: number }[] }>("GET", "objects/mug");
   return views.map(({ coverage }) => coverage).sort();
 }
 

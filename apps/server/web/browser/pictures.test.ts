@@ -17,7 +17,7 @@ const choose = (...names: string[]): Promise<void> =>
   page.locator("input[type=file]").first().setInputFiles(names.map((name) => join(demo, name)));
 
 async function impostors(): Promise<number> {
-  return ((await (await studio.ask("GET", "impostors")).json()) as { impostors: unknown[] }).impostors.length;
+  return (await studio.ask<{ impostors: unknown[] }>("GET", "impostors")).impostors.length;
 }
 
 async function save(name: string): Promise<void> {

@@ -16,7 +16,7 @@ test("settings are changed, are in force, and go back to their defaults", async 
   await studio.shoot(page, "settings");
   await page.getByRole("button", { name: "Apply" }).click();
   await page.getByText("The settings are in force").waitFor();
-  const { settings } = (await (await studio.ask("GET", "settings")).json()) as { settings: { value: number }[] };
+  const { settings } = await studio.ask<{ settings: { value: number }[] }>("GET", "settings");
   expect(settings[0]!.value).toBeCloseTo(0.32);
   await page.reload();
   await page.getByText("0.32 in 1000").waitFor();

@@ -79,21 +79,26 @@ export class Studio {
   /// Holds a picture of the demo set before the server's camera, which sees it again and again.
   async show(path: string): Promise<void> {
     clearInterval(this.camera);
-    const frame = picture(path);
-    await this.ask("POST", "live/frame", frame);
-    this.camera = setInterval(() => void this.ask("POST", "live/frame", frame).catch(() => undefined), kFrameMs);
+    await this.posting;
+    const seen = picture(path);
+    const { frame } = await this.ask<{ frame: number }>("POST", "live/frame", seen);
+    while ((await this.ask<{ frame: number }>("GET", "live")).frame < frame)
+      await new Promise((done) => setTimeout(done, 20));
+    this.camera = setInterval(() => {
+      this.posting = this.ask("POST", "live/frame", seen).catch(() => undefined);
+    }, kFrameMs);
   }
 
   private camera?: NodeJS.Timeout;
+  private posting: Promise<unknown> = Promise.resolve();
 
-  async ask(method: string, path: string, body?: Uint8Array<ArrayBuffer> | string): Promise<Response> {
+  async ask<T>(method: string, path: string, body?: Uint8Array<ArrayBuffer>): Promise<T> {
     const response = await fetch(`${this.address}/api/${path}`, {
       method,
       body,
-      headers: typeof body === "string" ? { "Content-Type": "application/json" } : {},
     });
     if (!response.ok) throw new Error(`${method} ${path}: ${response.status} ${await response.text()}`);
-    return response;
+    return (await response.json()) as T;
   }
 
   /// Teaches without the page: views of a folder of the demo set.

@@ -78,6 +78,14 @@ test("the outline lies on the object", async () => {
   }
 });
 
+test("a detection that is wrong is remembered, and that is taken back", async () => {
+  await page.getByRole("button", { name: "tea-mint is wrong here" }).click();
+  await page.getByText("Noted: that is not “tea-mint”").waitFor();
+  await page.getByRole("button", { name: "Undo" }).click();
+  await page.goto(`${studio.address}/#/settings`);
+  await page.getByText("Nothing. A false detection can be marked").waitFor();
+});
+
 test("a side that is known already is said to add little", async () => {
   await page.goto(`${studio.address}/#/teach`);
   await studio.show("train/mug/background.jpg");

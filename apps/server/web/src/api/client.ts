@@ -1,5 +1,6 @@
 // One way to ask the server: JSON in and out, errors as sentences, a lost login noticed.
 import { signal } from "@preact/signals";
+import { sentence } from "../ui/numbers";
 import type { Access } from "./types";
 
 export class ApiError extends Error {
@@ -51,7 +52,7 @@ export async function send(url: string, init: RequestInit = {}): Promise<Respons
   throw new ApiError(
     response.status,
     body?.error?.code ?? "unknown",
-    body?.error?.message ?? `The server answered ${response.status} ${response.statusText}.`,
+    sentence(body?.error?.message ?? `the server answered ${response.status} ${response.statusText}`),
   );
 }
 

@@ -1,5 +1,7 @@
 // The server's events as signals that every page can read.
 import { signal } from "@preact/signals";
+import { get_access } from "./calls";
+import { access } from "./client";
 import type { Live, Recognition } from "./types";
 
 export const live = signal<Live | null>(null);
@@ -22,6 +24,11 @@ export function listen(): () => void {
     events.onerror = () => {
       connected.value = false;
       events!.close();
+      // Gone, or no longer let in? Only the server can tell.
+      get_access().then(
+        (answer) => (access.value = answer),
+        () => undefined,
+      );
       timer = setTimeout(open, kRetryMs) as unknown as number;
     };
   };

@@ -1,6 +1,6 @@
 // Is this view good enough to be recognised by? In numbers and in words.
 import type { Quality } from "../api/types";
-import { percent } from "../ui/numbers";
+import { percent, sentence } from "../ui/numbers";
 
 const pixels = (value: number | null): string => (value == null ? "–" : `${Math.round(value)} px`);
 
@@ -28,9 +28,9 @@ export function QualityCard({ quality, problem }: { quality?: Quality; problem?:
         (quality.advice.length === 0 ? (
           <p class="note good">A good view.</p>
         ) : (
-          quality.advice.map((sentence) => (
-            <p key={sentence} class="note warn">
-              {sentence}
+          quality.advice.map((advice) => (
+            <p key={advice} class="note warn">
+              {sentence(advice)}
             </p>
           ))
         ))}

@@ -6,18 +6,18 @@ export interface Waiting {
   height: number;
 }
 
-/// Says which file could not be read as a picture.
+/// One after the other, for decoded pictures are large. Says which file could not be read.
 export async function read_pictures(files: File[]): Promise<Waiting[]> {
-  return Promise.all(
-    files.map(async (file) => {
-      const picture = await createImageBitmap(file).catch(() => {
-        throw new Error(`“${file.name}” is no picture that this browser can read.`);
-      });
-      const { width, height } = picture;
-      picture.close();
-      return { file, url: URL.createObjectURL(file), width, height };
-    }),
-  );
+  const read: Waiting[] = [];
+  for (const file of files) {
+    const picture = await createImageBitmap(file).catch(() => {
+      throw new Error(`“${file.name}” is no picture that this browser can read.`);
+    });
+    const { width, height } = picture;
+    picture.close();
+    read.push({ file, url: URL.createObjectURL(file), width, height });
+  }
+  return read;
 }
 
 /// "y036.jpg", "mug_y270.png": the side that a file name tells; null: it does not.

@@ -1,6 +1,7 @@
 // Teaching by turning the object before a camera: background, then side by side round the ring.
 import { useEffect, useState } from "preact/hooks";
 import { ActionButton } from "../ui/action_button";
+import { sentence } from "../ui/numbers";
 import { attempt } from "../ui/toast";
 import { ProposalMask } from "./proposal_mask";
 import { Ring } from "./ring";
@@ -72,7 +73,7 @@ export function Turntable({ teaching, ready, grab }: Props) {
           teaching={teaching}
           on_corrected={async () => {
             const { usable, advice } = teaching.proposal.value!;
-            if (!usable) throw new Error(advice[0] ?? "Nothing can be learned from this.");
+            if (!usable) throw new Error(sentence(advice[0] ?? "nothing can be learned from this"));
             await teaching.accept();
           }}
           on_close={() => set_correcting(false)}

@@ -1,6 +1,6 @@
 // Is what is seen now good enough? One sentence, in a place that keeps its height.
 import type { Proposal } from "../api/types";
-import { count } from "../ui/numbers";
+import { count, sentence } from "../ui/numbers";
 import type { Teaching } from "./teaching";
 import "./verdict.css";
 
@@ -21,8 +21,9 @@ export function Verdict({ teaching, waiting }: Props) {
 
 function judge(proposal: Proposal | null, waiting: string): [string, string] {
   if (!proposal) return ["", waiting];
-  if (!proposal.usable) return ["bad", proposal.advice[0] ?? "The object was not found."];
+  if (!proposal.usable) return ["bad", sentence(proposal.advice[0] ?? "the object was not found")];
   if (proposal.adds_little) return ["warn", "This side is known already: turn the object on. The view would add little."];
   const features = count(proposal.features, "feature");
-  return ["good", `Good: ${features} found. ${proposal.advice[0] ?? ""}`];
+  const [advice] = proposal.advice;
+  return ["good", `Good: ${features} found. ${advice ? sentence(advice) : ""}`];
 }

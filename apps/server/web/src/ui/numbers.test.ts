@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { clock, count, degrees, milliseconds, percent } from "./numbers";
+import { clock, count, degrees, milliseconds, percent, sentence } from "./numbers";
 
 test("what cannot be known is a dash", () => {
   expect([percent(null), percent(undefined), degrees(null)]).toEqual(["–", "–", "–"]);
@@ -13,4 +13,9 @@ test("one view, two views, many", () => {
 test("the clock does not run backwards", () => {
   expect([-5, 0, 7999, 60000, 75000].map(clock)).toEqual(["0:00", "0:00", "0:07", "1:00", "1:15"]);
   expect([0.04, 9.96, 120.4].map(milliseconds)).toEqual(["0.0 ms", "10.0 ms", "120 ms"]);
+});
+
+test("a message becomes a sentence", () => {
+  expect(sentence("the camera has moved")).toBe("The camera has moved.");
+  expect(sentence("Is it there?")).toBe("Is it there?");
 });

@@ -1,4 +1,4 @@
-// Numbers as people read them. null stands for what cannot be known.
+// Numbers and sentences as people read them. null stands for what cannot be known.
 export function percent(share: number | null | undefined): string {
   return share == null ? "–" : `${Math.round(share * 100)} %`;
 }
@@ -19,4 +19,10 @@ export function clock(ms: number): string {
 
 export function milliseconds(ms: number): string {
   return ms < 10 ? `${ms.toFixed(1)} ms` : `${Math.round(ms)} ms`;
+}
+
+/// The library's messages begin small, for they follow "posevote: " in a terminal.
+export function sentence(text: string): string {
+  const trimmed = text.trim();
+  return trimmed.charAt(0).toUpperCase() + trimmed.slice(1) + (/[.!?…]$/.test(trimmed) ? "" : ".");
 }

@@ -38,6 +38,8 @@ void FeatureOptions::describe(OptionList& list) {
   list.add("kind", kind, {"surf", "sift"}, "Kind of features.");
   list.add("max_features", max_features, {0, 10'000'000}, "",
            "Keep this many of the strongest features of a picture; 0 keeps all.");
+  list.add("features_per_megapixel", features_per_megapixel, {0, 1e6}, "",
+           "SURF: in large pictures keep this many per million pixels, if that is more.");
   list.add(
       "double_below_px", double_below_px, {0, 1e9}, "px",
       "SURF: pictures of fewer pixels are searched from one octave lower (enlarged by two); 0: "
@@ -53,22 +55,40 @@ std::string FeatureOptions::signature() const {
 
 namespace {
 
-/// Starts one octave lower on small pictures, where small objects have too few pixels for the first
-/// octave; large pictures show them large enough and would cost four times as much.
+/// Suits the search to the size of the picture: small ones from one octave lower, where small
+/// objects have too few pixels for the first octave; large ones with a limit in proportion to their
+/// area.
 class SizeAwareExtractor : public Extractor {
  public:
-  SizeAwareExtractor(std::shared_ptr<const Extractor> plain,
-                     std::shared_ptr<const Extractor> doubled, int double_below_px)
-      : plain_(std::move(plain)), doubled_(std::move(doubled)), double_below_px_(double_below_px) {}
+  using Make = std::shared_ptr<const Extractor> (*)(const FeatureOptions&);
+
+  SizeAwareExtractor(const FeatureOptions& options, Make make)
+      : options_(options), plain_(make(options)) {
+    FeatureOptions doubled = options, unlimited = options;
+    doubled.surf.double_size = true;
+    unlimited.max_features = 0;
+    doubled_ = make(doubled);
+    unlimited_ = make(unlimited);
+  }
 
   [[nodiscard]] Features extract(const cv::Mat& image, const cv::Mat& mask) const override {
-    const bool small = image.total() < static_cast<std::size_t>(double_below_px_);
-    return (small ? doubled_ : plain_)->extract(image, mask);
+    if (image.total() < static_cast<std::size_t>(options_.double_below_px))
+      return doubled_->extract(image, mask);
+    const double limit =
+        options_.features_per_megapixel * static_cast<double>(image.total()) * 1e-6;
+    if (options_.max_features == 0 || limit <= options_.max_features)
+      return plain_->extract(image, mask);
+    Features features = unlimited_->extract(image, mask);
+    if (static_cast<double>(features.size()) > limit) {
+      features.keypoints.resize(static_cast<std::size_t>(limit));
+      features.descriptors = features.descriptors.rowRange(0, static_cast<int>(limit)).clone();
+    }
+    return features;
   }
 
  private:
-  std::shared_ptr<const Extractor> plain_, doubled_;
-  int double_below_px_;
+  FeatureOptions options_;
+  std::shared_ptr<const Extractor> plain_, doubled_, unlimited_;
 };
 
 }  // namespace
@@ -77,11 +97,7 @@ std::shared_ptr<const Extractor> make_extractor(const FeatureOptions& options) {
   validate_options(options);
   if (options.kind == "sift") return make_sift_extractor(options);
 #if POSEVOTE_WITH_SURF
-  if (options.surf.double_size || options.double_below_px == 0) return make_surf_extractor(options);
-  FeatureOptions doubled = options;
-  doubled.surf.double_size = true;
-  return std::make_shared<SizeAwareExtractor>(
-      make_surf_extractor(options), make_surf_extractor(doubled), options.double_below_px);
+  return std::make_shared<SizeAwareExtractor>(options, &make_surf_extractor);
 #else
   throw Error(
       ErrorCode::unsupported,

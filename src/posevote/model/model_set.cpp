@@ -33,8 +33,7 @@ ModelSet::ModelSet(std::string signature, std::vector<ObjectModel> objects,
   int dimension = 0;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     const ObjectModel& object = objects_[i];
-    if (object.name.empty())
-      throw Error(ErrorCode::invalid_argument, "an object needs a name");
+    if (object.name.empty()) throw Error(ErrorCode::invalid_argument, "an object needs a name");
     if (!names.insert(object.name).second)
       throw Error(ErrorCode::invalid_argument, "object '" + object.name + "' is there twice");
     for (const auto& view : object.views) {

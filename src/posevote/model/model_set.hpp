@@ -10,9 +10,9 @@
 namespace posevote {
 
 /// Objects with their views, and a pool of features that belong to no object (pictures of the
-/// surroundings, false detections marked by the user), all of one feature signature. Immutable after
-/// construction, so it is shared between threads without locks; teaching makes a new one that shares
-/// the views.
+/// surroundings, false detections marked by the user), all of one feature signature. Immutable
+/// after construction, so it is shared between threads without locks; teaching makes a new one that
+/// shares the views.
 class ModelSet {
  public:
   /// A view and the object it belongs to: index into `objects()`.

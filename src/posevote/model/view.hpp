@@ -8,19 +8,21 @@
 #include <vector>
 
 #include "posevote/feature/features.hpp"
+#include "posevote/model/patch.hpp"
 
 namespace posevote {
 
 /// One taught picture of an object. Coordinates are pixels of that picture.
 struct View {
-  std::string id;        ///< unique within the object, e.g. "3"; given by the store
-  std::string hash;      ///< content hash, equal for equal content; "" when made in memory
+  std::string id;                 ///< unique within the object, e.g. "3"; given by the store
+  std::string hash;               ///< content hash, equal for equal content; "" when made in memory
   double yaw_deg = std::nan("");  ///< turn about the vertical axis; NaN: unknown
   cv::Size image_size;
   std::vector<cv::Point2f> outline;  ///< the silhouette, a simple polygon of >= 3 points
   cv::Point2f centre;                ///< centroid of the mask: c_o of Eq. 1
   Features features;                 ///< inside the mask only
-  cv::Mat picture;  ///< BGR 8-bit, the taught picture, for comparing colours; may be empty
+  Patch patch;                       ///< the object in small; may be empty
+  cv::Mat picture;  ///< BGR 8-bit, the taught picture, for showing it; may be empty
   cv::Mat mask;     ///< CV_8U 0/255, size of the picture; may be empty
 };
 

@@ -113,28 +113,21 @@ std::vector<char> features_taken(const Claim& claim, const std::vector<Claim>& b
   return taken;
 }
 
-/// How far the view is from how the object is seen: log of largest over smallest stretch at the
-/// centre.
-double distortion(const Claim& claim, const SceneContext& scene) {
-  const View& view = *scene.models.views()[static_cast<std::size_t>(claim.hypothesis.view)].view;
-  cv::Vec2d stretch;
-  cv::SVD::compute(local_jacobian(claim.hypothesis.scene_from_view, view.centre), stretch,
-                   cv::SVD::NO_UV);
-  return std::log(stretch[0] / std::max(1e-9, stretch[1]));
-}
-
 /// Several views of an object explain the same features. The features say which object it is, but
-/// the outline is best taken from the view that needs the least distortion: of those with nearly
-/// the evidence of the strongest, that one goes first. `claims` are sorted, best first.
-void prefer_least_distorted(std::vector<Claim>& claims, const SceneContext& scene) {
-  constexpr double kNearly = 0.6;  // of the strongest one's digits
+/// where it is says the view whose picture agrees best: of those with a good part of the strongest
+/// one's evidence, that one goes first. `claims` are sorted, best first.
+void prefer_most_probable(std::vector<Claim>& claims) {
+  constexpr double kPart = 0.6;  // of the strongest one's digits
+  const auto probability = [](const Claim& claim) {
+    return claim.hypothesis.presence.probability();
+  };
   for (auto first = claims.begin(); first != claims.end(); ++first) {
     auto best = first;
     for (auto other = first + 1; other != claims.end(); ++other) {
-      const double digits = other->hypothesis.log10_false_alarms;
-      if (digits > kNearly * first->hypothesis.log10_false_alarms) break;
+      if (other->hypothesis.log10_false_alarms > kPart * first->hypothesis.log10_false_alarms)
+        break;
       if (other->object != first->object || other->region.share_in(first->region) < 0.5) continue;
-      if (distortion(*other, scene) < distortion(*best, scene)) best = other;
+      if (probability(*other) > probability(*best)) best = other;
     }
     std::rotate(first, best, best + 1);
   }
@@ -148,7 +141,7 @@ std::vector<Hypothesis> compete(std::vector<Hypothesis> hypotheses, const SceneC
   std::ranges::stable_sort(hypotheses, {}, &Hypothesis::log10_false_alarms);
   std::vector<Claim> candidates, claims;
   for (Hypothesis& hypothesis : hypotheses) candidates.emplace_back(std::move(hypothesis), scene);
-  prefer_least_distorted(candidates, scene);
+  prefer_most_probable(candidates);
   for (Claim& claim : candidates) {
     if (is_excluded(claim, claims, scene, options.max_overlap)) continue;
     const std::vector<char> taken = features_taken(claim, claims, scene.grid.features());

@@ -49,12 +49,6 @@ std::vector<Hypothesis> verify_all(const std::vector<PoseCluster>& clusters,
   return found;
 }
 
-/// One true object per picture against the expected number of accidents: not calibrated on
-/// pictures, and too sure where another thing shares a part of the object.
-double probability_of(double log10_false_alarms) {
-  return 1 / (1 + std::pow(10.0, std::clamp(log10_false_alarms, -12.0, 12.0)));
-}
-
 Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
   const auto& entry = scene.models.views()[static_cast<std::size_t>(hypothesis.view)];
   Detection detection;
@@ -65,9 +59,9 @@ Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
   detection.confidence = detection.features_in_area > 0
                              ? static_cast<double>(detection.inliers) / detection.features_in_area
                              : 0;
-  detection.coverage = hypothesis.coverage;
   detection.log10_false_alarms = hypothesis.log10_false_alarms;
-  detection.probability = probability_of(hypothesis.log10_false_alarms);
+  detection.measured = hypothesis.measured;
+  detection.probability = hypothesis.presence.probability();
   detection.scene_from_view = hypothesis.scene_from_view;
   detection.outline = transform_polygon(hypothesis.scene_from_view, entry.view->outline);
   const cv::Rect2f box = cv::boundingRect(detection.outline);
@@ -127,13 +121,13 @@ struct Recognizer::State {
   std::shared_ptr<const Extractor> extractor;
   std::atomic<std::shared_ptr<const Snapshot>> snapshot;
 
-  RecognitionResult run(const Snapshot& now, const Features& scene, cv::Size size) const;
+  RecognitionResult run(const Snapshot& now, const Features& scene, const cv::Mat& image) const;
 };
 
 RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& scene,
-                                         cv::Size size) const {
+                                         const cv::Mat& image) const {
   RecognitionResult result;
-  result.image_size = size;
+  const cv::Size size = result.image_size = image.size();
   result.counts.features = static_cast<int>(scene.size());
   Stopwatch watch;
 
@@ -149,7 +143,8 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
 
   const SceneGrid grid(scene, size);
   SceneRivals rivals(models, scene, options.verify.evidence.rivals);
-  const SceneContext context{models, neighborhood, grid, matches, rivals};
+  const ScenePyramid pyramid(image);
+  const SceneContext context{models, neighborhood, grid, matches, rivals, pyramid};
   auto hypotheses = options.rule == "paper"
                         ? apply_paper_rule(clusters, context, options.paper)
                         : compete(verify_all(clusters, context, options), context, options);
@@ -178,16 +173,16 @@ RecognitionResult Recognizer::recognize(const cv::Mat& image) const {
   Stopwatch watch;
   const Features scene = state_->extractor->extract(image);
   const double detect_ms = watch.lap();
-  RecognitionResult result = recognize(scene, image.size());
+  RecognitionResult result = recognize(scene, image);
   result.time_ms.detect = detect_ms;
   result.time_ms.total = detect_ms + watch.lap();
   return result;
 }
 
-RecognitionResult Recognizer::recognize(const Features& scene, cv::Size image_size) const {
+RecognitionResult Recognizer::recognize(const Features& scene, const cv::Mat& image) const {
   Stopwatch watch;
   const auto now = state_->snapshot.load();
-  RecognitionResult result = state_->run(*now, scene, image_size);
+  RecognitionResult result = state_->run(*now, scene, image);
   result.time_ms.total = watch.lap();
   return result;
 }

@@ -28,9 +28,9 @@ struct Detection {
   std::string object;
   std::string view;                  ///< id of the taught view that explains it best
   double confidence = 0;             ///< Eq. 11: matched features / scene features in the area
-  double probability = 0;            ///< that it is no accident; see log10_false_alarms
+  double probability = 0;            ///< that this object is there, and in this place
   double log10_false_alarms = 0;     ///< log10 of the expected number of such accidents per image
-  double coverage = 0;               ///< share of the view's features in the part that was seen
+  PresenceEvidence measured;         ///< what the probability was made of
   int inliers = 0;                   ///< f_m of Eq. 11
   int features_in_area = 0;          ///< f_t of Eq. 11
   cv::Matx33d scene_from_view;       ///< homography, view px -> scene px, (2,2) = 1
@@ -88,8 +88,8 @@ class Recognizer {
   /// `image` as in `Extractor::extract`. Nothing found is a result without detections.
   [[nodiscard]] RecognitionResult recognize(const cv::Mat& image) const;
 
-  /// Recognition in given features of a scene of that size.
-  [[nodiscard]] RecognitionResult recognize(const Features& scene, cv::Size image_size) const;
+  /// Recognition with features that were extracted from `image` already.
+  [[nodiscard]] RecognitionResult recognize(const Features& scene, const cv::Mat& image) const;
 
   void set_models(std::shared_ptr<const ModelSet> models);
   [[nodiscard]] std::shared_ptr<const ModelSet> models() const;

@@ -36,6 +36,7 @@ std::shared_ptr<View> whole_picture(const cv::Mat& picture) {
   const auto w = static_cast<float>(picture.cols - 1), h = static_cast<float>(picture.rows - 1);
   view->outline = {{0, 0}, {w, 0}, {w, h}, {0, h}};
   view->centre = {w / 2, h / 2};
+  view->patch = make_patch(picture, cv::Mat(picture.size(), CV_8U, cv::Scalar(255)));
   view->features = make_extractor(features())->extract(picture);
   return view;
 }

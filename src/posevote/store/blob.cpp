@@ -85,4 +85,52 @@ std::vector<cv::Point2f> decode_points(BlobView points) {
   return decoded;
 }
 
+namespace {
+
+struct PatchHeader {
+  std::int32_t width, height;
+  double scale, x, y;
+};
+constexpr int max_patch_side = 4096;
+
+}  // namespace
+
+Blob encode_patch(const Patch& patch) {
+  if (patch.empty()) return {};
+  CV_Assert(patch.pixels.type() == CV_8UC3 && patch.mask.type() == CV_8U &&
+            patch.mask.size() == patch.pixels.size());
+  const PatchHeader header{patch.pixels.cols, patch.pixels.rows, patch.scale, patch.corner.x,
+                           patch.corner.y};
+  const cv::Mat pixels = patch.pixels.isContinuous() ? patch.pixels : patch.pixels.clone();
+  const cv::Mat mask = patch.mask.isContinuous() ? patch.mask : patch.mask.clone();
+  Blob blob(sizeof header + 4 * pixels.total());
+  std::memcpy(blob.data(), &header, sizeof header);
+  std::memcpy(blob.data() + sizeof header, pixels.data, 3 * pixels.total());
+  std::memcpy(blob.data() + sizeof header + 3 * pixels.total(), mask.data, mask.total());
+  return blob;
+}
+
+Patch decode_patch(BlobView bytes) {
+  if (bytes.size == 0) return {};
+  PatchHeader header{};
+  if (bytes.size < sizeof header) fail("its patch is cut off");
+  std::memcpy(&header, bytes.data, sizeof header);
+  const bool sane = header.width > 0 && header.height > 0 && header.width <= max_patch_side &&
+                    header.height <= max_patch_side && header.scale > 0 &&
+                    std::isfinite(header.scale) && std::isfinite(header.x) &&
+                    std::isfinite(header.y);
+  const std::size_t pixels =
+      static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
+  if (!sane || bytes.size != sizeof header + 4 * pixels) fail("its patch is cut off");
+  const auto* data = static_cast<const std::uint8_t*>(bytes.data) + sizeof header;
+  Patch patch;
+  patch.scale = header.scale;
+  patch.corner = {header.x, header.y};
+  patch.pixels.create(header.height, header.width, CV_8UC3);
+  patch.mask.create(header.height, header.width, CV_8U);
+  std::memcpy(patch.pixels.data, data, 3 * pixels);
+  std::memcpy(patch.mask.data, data + 3 * pixels, pixels);
+  return patch;
+}
+
 }  // namespace posevote

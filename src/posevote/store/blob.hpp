@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "posevote/feature/features.hpp"
+#include "posevote/model/patch.hpp"
 
 namespace posevote {
 
@@ -25,11 +26,17 @@ struct BlobView {
 /// x, y as 32-bit floats.
 [[nodiscard]] Blob encode_points(const std::vector<cv::Point2f>& points);
 
+/// Width and height as int32, scale and corner as 64-bit floats, then the pixels and the mask row
+/// by row. Empty for an empty patch.
+[[nodiscard]] Blob encode_patch(const Patch& patch);
+
 /// Throws Error{database_unusable} before anything is allocated when the sizes do not fit each
 /// other or `dimension` is not in [1, 4096] (0 when there are no features), and for values that are
 /// not finite.
 [[nodiscard]] Features decode_features(BlobView keypoints, BlobView descriptors, int dimension);
 /// Throws Error{database_unusable}: not a multiple of 8 bytes, not finite.
 [[nodiscard]] std::vector<cv::Point2f> decode_points(BlobView points);
+/// Throws Error{database_unusable}: sizes that do not fit, values that are not finite.
+[[nodiscard]] Patch decode_patch(BlobView bytes);
 
 }  // namespace posevote

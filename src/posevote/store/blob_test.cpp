@@ -81,5 +81,31 @@ TEST(Blob, PointsSurviveTheRoundTrip) {
               StartsWith("database_unusable"));
 }
 
+TEST(PatchBlob, ComesBackAsItWas) {
+  Patch patch;
+  patch.pixels = cv::Mat(7, 5, CV_8UC3, cv::Scalar(1, 2, 3));
+  patch.mask = cv::Mat(7, 5, CV_8U, cv::Scalar(255));
+  patch.scale = 2.5;
+  patch.corner = {-1.5, 8};
+  const Blob bytes = encode_patch(patch);
+  const Patch read = decode_patch({bytes.data(), bytes.size()});
+  EXPECT_EQ(cv::norm(read.pixels, patch.pixels), 0);
+  EXPECT_EQ(cv::norm(read.mask, patch.mask), 0);
+  EXPECT_EQ(read.scale, patch.scale);
+  EXPECT_EQ(read.corner, patch.corner);
+  EXPECT_TRUE(decode_patch({}).empty());
+}
+
+TEST(PatchBlob, DamageIsSaid) {
+  Patch patch;
+  patch.pixels = cv::Mat(7, 5, CV_8UC3, cv::Scalar(1, 2, 3));
+  patch.mask = cv::Mat(7, 5, CV_8U, cv::Scalar(255));
+  Blob bytes = encode_patch(patch);
+  EXPECT_THROW(static_cast<void>(decode_patch({bytes.data(), bytes.size() - 1})), Error);
+  EXPECT_THROW(static_cast<void>(decode_patch({bytes.data(), 9})), Error);
+  bytes[3] = 0x7f;  // an enormous width
+  EXPECT_THROW(static_cast<void>(decode_patch({bytes.data(), bytes.size()})), Error);
+}
+
 }  // namespace
 }  // namespace posevote

@@ -228,6 +228,12 @@ TEST_P(Store, LoadGivesEverything) {
   ASSERT_EQ(models->views().size(), 3U);
   expect_equal(models->views()[2].view->features, made_view(2).view.features);
   EXPECT_TRUE(models->views()[2].view->picture.empty());
+  const Patch expected = make_patch(made_view(2).view.picture, made_view(2).view.mask);
+  const Patch& patch = models->views()[2].view->patch;
+  ASSERT_EQ(patch.pixels.size(), expected.pixels.size());
+  EXPECT_EQ(cv::norm(patch.pixels, expected.pixels), 0);
+  EXPECT_EQ(cv::norm(patch.mask, expected.mask), 0);
+  EXPECT_EQ(patch.corner, expected.corner);
   ASSERT_EQ(models->impostors().size(), 1U);
   expect_equal(models->impostors()[0], made_features(9));
   EXPECT_EQ(store_->load_object("mug").views.size(), 2U);

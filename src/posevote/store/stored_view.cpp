@@ -4,6 +4,7 @@
 #include <ctime>
 #include <opencv2/imgproc.hpp>
 
+#include "posevote/core/error.hpp"
 #include "posevote/image/read_image.hpp"
 
 namespace posevote {
@@ -33,6 +34,23 @@ void decode_pictures(View& view, const std::vector<std::uint8_t>& picture,
                      const std::vector<std::uint8_t>& mask, const std::string& name) {
   view.picture = to_bgr(decode_image(picture, name));
   if (!mask.empty()) view.mask = decode_image(mask, name);
+}
+
+Patch patch_of(const View& view, const std::vector<std::uint8_t>& picture,
+               const std::vector<std::uint8_t>& mask) {
+  View read;
+  try {
+    decode_pictures(read, picture, mask, "a view");
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::unreadable_image) throw;
+    return {};
+  }
+  if (read.mask.empty()) {
+    const std::vector<cv::Point> polygon(view.outline.begin(), view.outline.end());
+    read.mask = cv::Mat::zeros(read.picture.size(), CV_8U);
+    cv::fillPoly(read.mask, std::vector<std::vector<cv::Point>>{polygon}, cv::Scalar(255));
+  }
+  return read.mask.size() == read.picture.size() ? make_patch(read.picture, read.mask) : Patch();
 }
 
 std::shared_ptr<const View> ViewCache::get(

@@ -20,6 +20,11 @@ namespace posevote {
 void decode_pictures(View& view, const std::vector<std::uint8_t>& picture,
                      const std::vector<std::uint8_t>& mask, const std::string& name);
 
+/// The object in small, from encoded pictures; without a mask the outline's inside is the object.
+/// Empty when the picture cannot be read.
+[[nodiscard]] Patch patch_of(const View& view, const std::vector<std::uint8_t>& picture,
+                             const std::vector<std::uint8_t>& mask);
+
 /// Views that a snapshot, still alive, holds. For one thread at a time.
 class ViewCache {
  public:

@@ -112,6 +112,7 @@ View teach_view(const ViewSource& source, const TeachOptions& options) {
   view.yaw_deg = source.yaw_deg;
   view.outline = outline_of(view.mask);
   view.centre = centroid_of(view.mask);
+  view.patch = make_patch(view.picture, view.mask);
   view.features = features_inside(view.picture, view.mask, options);
   if (view.features.size() < static_cast<std::size_t>(options.min_features)) {
     throw Error(

@@ -5,6 +5,7 @@
 
 #include "posevote/match/matcher.hpp"
 #include "posevote/model/model_set.hpp"
+#include "posevote/verify/agreement.hpp"
 #include "posevote/verify/scene_grid.hpp"
 
 namespace posevote {
@@ -36,6 +37,7 @@ struct SceneContext {
   const SceneGrid& grid;
   const std::vector<Match>& matches;
   SceneRivals& rivals;
+  const ScenePyramid& pyramid;
 };
 
 /// Euclidean distance of two descriptors: row `row_a` of a and `row_b` of b, CV_32F of one length.

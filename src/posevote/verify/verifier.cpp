@@ -92,12 +92,11 @@ cv::Matx33d propose_similarity(const std::vector<PointPair>& pairs, double objec
 
 /// Share of the view's features inside the hull of the matched ones, of those that the picture
 /// could show. A logo that another thing carries too covers little of the object.
-double coverage_of(const Hypothesis& hypothesis, const SceneContext& scene) {
+double coverage_of(const std::vector<cv::Point2f>& matched, const Hypothesis& hypothesis,
+                   const SceneContext& scene) {
   const View& view = view_of(scene, hypothesis.view);
-  std::vector<cv::Point2f> matched, hull;
-  for (const Match& match : hypothesis.evidence.inliers)
-    matched.push_back(points_of(scene, match).view);
   if (matched.size() < 3) return 0;
+  std::vector<cv::Point2f> hull;
   cv::convexHull(matched, hull);
   const cv::Rect2f frame({0, 0}, cv::Size2f(scene.grid.size()));
   int visible = 0, covered = 0;
@@ -142,39 +141,58 @@ Hypothesis refine(const Hypothesis& start, const SceneContext& scene,
   return best;
 }
 
+/// Log of the largest over the smallest stretch at the view's centre.
+double distortion_of(const Hypothesis& hypothesis, const View& view) {
+  cv::Vec2d stretch;
+  cv::SVD::compute(local_jacobian(hypothesis.scene_from_view, view.centre), stretch,
+                   cv::SVD::NO_UV);
+  return std::log(stretch[0] / std::max(1e-9, stretch[1]));
+}
+
+PresenceEvidence measure(const Hypothesis& hypothesis, const SceneContext& scene) {
+  const View& view = view_of(scene, hypothesis.view);
+  std::vector<cv::Point2f> matched;
+  for (const Match& match : hypothesis.evidence.inliers)
+    matched.push_back(points_of(scene, match).view);
+  PresenceEvidence measured;
+  measured.digits = -hypothesis.log10_false_alarms;
+  measured.confidence = static_cast<double>(matched.size()) /
+                        std::max(hypothesis.features_in_area, static_cast<int>(matched.size()));
+  measured.coverage = coverage_of(matched, hypothesis, scene);
+  measured.distortion = distortion_of(hypothesis, view);
+  measured.agreement =
+      measure_agreement(view.patch, hypothesis.scene_from_view, matched, scene.pyramid);
+  return measured;
+}
+
 void decide(Hypothesis& hypothesis, const SceneContext& scene, const VerifyOptions& options) {
   if (!hypothesis.rejected.empty()) return;
-  hypothesis.coverage = coverage_of(hypothesis, scene);
+  const int inliers = static_cast<int>(hypothesis.evidence.inliers.size());
+  if (inliers < options.min_inliers) {
+    hypothesis.rejected = "only " + std::to_string(inliers) + " features agree on a pose";
+    return;
+  }
+  if (hypothesis.log10_false_alarms > 0) {
+    hypothesis.rejected = "so much agreement happens by chance";
+    return;
+  }
   hypothesis.features_in_area =
       features_in_area(hypothesis.view, hypothesis.scene_from_view, scene);
-  const int inliers = static_cast<int>(hypothesis.evidence.inliers.size());
-  if (inliers < options.min_inliers)
-    hypothesis.rejected = "only " + std::to_string(inliers) + " features agree on a pose";
-  else if (hypothesis.coverage < options.min_coverage)
-    hypothesis.rejected = "only a small part of it agrees";
-  else if (inliers < options.min_confidence * hypothesis.features_in_area)
-    hypothesis.rejected = "most of what is seen in its place is something else";
-  else if (-hypothesis.log10_false_alarms * inliers <
-           options.min_evidence * hypothesis.features_in_area)
-    hypothesis.rejected = "too little of what is seen in its place agrees for so weak evidence";
-  else if (hypothesis.log10_false_alarms > std::log10(options.false_alarms_per_1000_images / 1000))
-    hypothesis.rejected = "so much agreement happens by chance";
+  hypothesis.measured = measure(hypothesis, scene);
+  hypothesis.presence = rate_presence(hypothesis.measured);
+  if (hypothesis.presence.probability() >= least_probability(options.false_alarms_per_1000_images))
+    return;
+  hypothesis.rejected = hypothesis.presence.object < hypothesis.presence.place
+                            ? "a part of it agrees, but the rest looks like another thing"
+                            : "it may be there, but too little agrees to say where";
 }
 
 }  // namespace
 
 void VerifyOptions::describe(OptionList& list) {
-  list.add("false_alarms_per_1000_images", false_alarms_per_1000_images, {1e-9, 1e6}, "",
+  list.add("false_alarms_per_1000_images", false_alarms_per_1000_images, {1e-3, 1e6}, "",
            "The dial: how many false detections in 1000 pictures are acceptable.");
   list.add("min_inliers", min_inliers, {3, 1000}, "", "Fewest features that make a detection.");
-  list.add("min_coverage", min_coverage, {0, 1}, "",
-           "Share of the taught features that must lie in the part of the object that was seen.");
-  list.add("min_confidence", min_confidence, {0, 1}, "",
-           "Share of the scene features in the object's place that must match it (Eq. 11).");
-  // These three were chosen on the development sets: another thing with the same logo or table
-  // agrees in a small part, the object itself in a large share of what is seen in its place.
-  list.add("min_evidence", min_evidence, {0, 1000}, "",
-           "Digits of the number of false alarms, times the share of Eq. 11, that are needed.");
   list.group("evidence", evidence);
   list.group("pose", pose);
   list.group("plausibility", plausibility);

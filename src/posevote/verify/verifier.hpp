@@ -6,17 +6,15 @@
 
 #include "posevote/verify/evidence.hpp"
 #include "posevote/verify/pose_fit.hpp"
+#include "posevote/verify/presence.hpp"
 #include "posevote/verify/transform.hpp"
 #include "posevote/vote/hough.hpp"
 
 namespace posevote {
 
 struct VerifyOptions {
-  double false_alarms_per_1000_images = 1;  ///< the dial
+  double false_alarms_per_1000_images = 10;  ///< the dial
   int min_inliers = 5;
-  double min_coverage = 0.05;
-  double min_confidence = 0.07;
-  double min_evidence = 1.5;
   EvidenceOptions evidence;
   PoseFitOptions pose;
   PlausibilityOptions plausibility;
@@ -29,10 +27,11 @@ struct Hypothesis {
   cv::Matx33d scene_from_view;
   float tolerance_px = 0;
   Evidence evidence;
-  double coverage = 0;            ///< share of the view's features in the part that was seen
   int features_in_area = 0;       ///< f_t of Eq. 11
   double log10_false_alarms = 0;  ///< per image, with the number of poses and views tried
-  std::string rejected;           ///< "" or why the cluster is no object: plain words
+  PresenceEvidence measured;
+  Presence presence;
+  std::string rejected;  ///< "" or why the cluster is no object: plain words
 };
 
 /// Finds the pose on which most of the cluster agrees, extends it by guided matching, refines it as

@@ -216,14 +216,14 @@ TaughtView PostgresStore::view(const std::string& object, const std::string& id)
 
 std::shared_ptr<const View> PostgresStore::load_view(std::int64_t id,
                                                      const LoadOptions& options) const {
-  const std::string pictures = options.pictures ? ", picture, mask" : "";
   const pqxx::row row = work_->exec_params1(
       "SELECT number, identity, hash, yaw_deg, width, height, centre_x, centre_y, dimension, "
       "outline, "
-      "keypoints, descriptors, (SELECT signature FROM posevote.features) AS signature" +
-          pictures + " FROM posevote.view WHERE id = $1",
+      "keypoints, descriptors, picture, mask, (SELECT signature FROM posevote.features) AS "
+      "signature FROM posevote.view WHERE id = $1",
       id);
   View view = checked_view(row, row["signature"].c_str());
+  view.patch = patch_of(view, blob_of(row["picture"]), blob_of(row["mask"]));
   if (options.pictures)
     decode_pictures(view, blob_of(row["picture"]), blob_of(row["mask"]), location_);
   return std::make_shared<const View>(std::move(view));

@@ -132,12 +132,21 @@ TaughtView SqliteStore::view(const std::string& object, const std::string& id) c
   });
 }
 
+Patch SqliteStore::load_patch(std::int64_t view) const {
+  Statement row(database_, "SELECT bytes FROM patch WHERE view = ?");
+  row.bind(1, view);
+  return row.executeStep() ? decode_patch(blob_of(row.getColumn(0))) : Patch();
+}
+
 std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id,
                                                    const LoadOptions& options) const {
   Statement row(database_, "SELECT * FROM view WHERE id = ?");
   row.bind(1, id);
   row.executeStep();
   View view = checked_view(row);
+  view.patch = load_patch(id);
+  if (view.patch.empty())
+    view.patch = patch_of(view, copy_of(row.getColumn("picture")), copy_of(row.getColumn("mask")));
   if (options.pictures)
     decode_pictures(view, copy_of(row.getColumn("picture")), copy_of(row.getColumn("mask")), path_);
   return std::make_shared<const View>(std::move(view));

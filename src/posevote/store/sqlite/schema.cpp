@@ -64,6 +64,12 @@ CREATE TABLE impostor (
     R"sql(
 CREATE TABLE derived (key TEXT PRIMARY KEY, version INTEGER NOT NULL, bytes BLOB NOT NULL);
 )sql",
+    // 4: views in small; views of older databases have none, it is made when they are loaded
+    R"sql(
+CREATE TABLE patch (
+  view INTEGER PRIMARY KEY REFERENCES view(id) ON DELETE CASCADE,
+  bytes BLOB NOT NULL);
+)sql",
 };
 
 }  // namespace

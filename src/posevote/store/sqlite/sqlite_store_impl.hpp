@@ -68,6 +68,7 @@ class SqliteStore : public ObjectStore {
   View checked_view(SQLite::Statement& row) const;
   void check_picture(const TaughtView& view, const std::string& identity,
                      const std::string& number) const;
+  Patch load_patch(std::int64_t view) const;
   std::shared_ptr<const View> load_view(std::int64_t row, const LoadOptions& options) const;
   std::vector<std::shared_ptr<const View>> load_views(std::int64_t object,
                                                       const LoadOptions& options) const;

@@ -97,6 +97,10 @@ std::string SqliteStore::insert_view(std::int64_t object, const TaughtView& view
   bind_blob(insert, ":mask", view.mask);
   bind_blob(insert, ":picture", view.picture);
   insert.exec();
+  Statement patch(database_,
+                  "INSERT INTO patch (view, bytes) VALUES (last_insert_rowid(), :bytes)");
+  bind_blob(patch, ":bytes", encode_patch(patch_of(view.view, view.picture, view.mask)));
+  patch.exec();
   return std::to_string(number);
 }
 

@@ -9,6 +9,7 @@
 #include "posevote/core/error.hpp"
 #include "posevote/core/stopwatch.hpp"
 #include "posevote/recognize/compete.hpp"
+#include "posevote/recognize/trace.hpp"
 
 namespace posevote {
 namespace {
@@ -60,6 +61,7 @@ Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
                              ? static_cast<double>(detection.inliers) / detection.features_in_area
                              : 0;
   detection.log10_false_alarms = hypothesis.log10_false_alarms;
+  detection.presence = hypothesis.presence;
   detection.measured = hypothesis.measured;
   detection.probability = hypothesis.presence.probability();
   detection.scene_from_view = hypothesis.scene_from_view;
@@ -72,6 +74,24 @@ Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
     detection.matches.push_back({{v.x, v.y}, {s.x, s.y}});
   }
   return detection;
+}
+
+void record_matches(const Neighborhood& neighborhood, const std::vector<Match>& matches,
+                    const std::vector<PoseCluster>& clusters, Trace& trace) {
+  for (std::size_t s = 0; s < neighborhood.neighbors().size(); ++s) {
+    auto& views = trace.similar_views.emplace_back();
+    for (const Neighbor& neighbor : neighborhood.neighbors()[s]) views.push_back(neighbor.view);
+  }
+  trace.matches = matches;
+  trace.clusters = clusters;
+}
+
+void record_hypotheses(const std::vector<Hypothesis>& hypotheses, const SceneContext& scene,
+                       Trace& trace) {
+  for (const Hypothesis& hypothesis : hypotheses) {
+    TracedHypothesis traced{describe(hypothesis, scene), hypothesis.stage, hypothesis.rejected};
+    trace.hypotheses.push_back(std::move(traced));
+  }
 }
 
 }  // namespace
@@ -121,11 +141,12 @@ struct Recognizer::State {
   std::shared_ptr<const Extractor> extractor;
   std::atomic<std::shared_ptr<const Snapshot>> snapshot;
 
-  RecognitionResult run(const Snapshot& now, const Features& scene, const cv::Mat& image) const;
+  RecognitionResult run(const Snapshot& now, const Features& scene, const cv::Mat& image,
+                        Trace* trace = nullptr) const;
 };
 
 RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& scene,
-                                         const cv::Mat& image) const {
+                                         const cv::Mat& image, Trace* trace) const {
   RecognitionResult result;
   const cv::Size size = result.image_size = image.size();
   result.counts.features = static_cast<int>(scene.size());
@@ -145,9 +166,15 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
   SceneRivals rivals(models, scene, options.verify.evidence.rivals);
   const ScenePyramid pyramid(image);
   const SceneContext context{models, neighborhood, grid, matches, rivals, pyramid};
-  auto hypotheses = options.rule == "paper"
-                        ? apply_paper_rule(clusters, context, options.paper)
-                        : compete(verify_all(clusters, context, options), context, options);
+  if (trace) record_matches(neighborhood, matches, clusters, *trace);
+  std::vector<Hypothesis> hypotheses;
+  if (options.rule == "paper") {
+    hypotheses = apply_paper_rule(clusters, context, options.paper);
+  } else {
+    hypotheses = verify_all(clusters, context, options);
+    if (trace) record_hypotheses(hypotheses, context, *trace);
+    hypotheses = compete(std::move(hypotheses), context, options);
+  }
   std::erase_if(hypotheses, [](const Hypothesis& h) { return !h.rejected.empty(); });
   for (const auto& hypothesis : hypotheses) {
     result.detections.push_back(describe(hypothesis, context));
@@ -185,6 +212,15 @@ RecognitionResult Recognizer::recognize(const Features& scene, const cv::Mat& im
   RecognitionResult result = state_->run(*now, scene, image);
   result.time_ms.total = watch.lap();
   return result;
+}
+
+Trace Recognizer::trace(const cv::Mat& image) const {
+  Trace trace;
+  const auto now = state_->snapshot.load();
+  trace.models = now->models;
+  trace.scene = state_->extractor->extract(image);
+  trace.detections = state_->run(*now, trace.scene, image, &trace).detections;
+  return trace;
 }
 
 void Recognizer::set_models(std::shared_ptr<const ModelSet> models) {

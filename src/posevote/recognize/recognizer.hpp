@@ -30,7 +30,8 @@ struct Detection {
   double confidence = 0;             ///< Eq. 11: matched features / scene features in the area
   double probability = 0;            ///< that this object is there, and in this place
   double log10_false_alarms = 0;     ///< log10 of the expected number of such accidents per image
-  PresenceEvidence measured;         ///< what the probability was made of
+  Presence presence;                 ///< the probability's two parts
+  PresenceEvidence measured;         ///< what they were made of
   int inliers = 0;                   ///< f_m of Eq. 11
   int features_in_area = 0;          ///< f_t of Eq. 11
   cv::Matx33d scene_from_view;       ///< homography, view px -> scene px, (2,2) = 1
@@ -76,6 +77,8 @@ struct RecognizeOptions {
 /// Options of a preset; throws Error{invalid_argument} for a name that is none.
 [[nodiscard]] RecognizeOptions make_preset(const std::string& name);
 
+struct Trace;
+
 /// Finds taught objects in pictures. `recognize` is const and may be called from many threads while
 /// `set_models` swaps the objects; a running call finishes with those it began with.
 class Recognizer {
@@ -90,6 +93,9 @@ class Recognizer {
 
   /// Recognition with features that were extracted from `image` already.
   [[nodiscard]] RecognitionResult recognize(const Features& scene, const cv::Mat& image) const;
+
+  /// `recognize`, with all that lay between: see trace.hpp.
+  [[nodiscard]] Trace trace(const cv::Mat& image) const;
 
   void set_models(std::shared_ptr<const ModelSet> models);
   [[nodiscard]] std::shared_ptr<const ModelSet> models() const;

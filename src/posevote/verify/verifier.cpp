@@ -172,6 +172,7 @@ void decide(Hypothesis& hypothesis, const SceneContext& scene, const VerifyOptio
     hypothesis.rejected = "only " + std::to_string(inliers) + " features agree on a pose";
     return;
   }
+  hypothesis.stage = HypothesisStage::chance;
   if (hypothesis.log10_false_alarms > 0) {
     hypothesis.rejected = "so much agreement happens by chance";
     return;
@@ -180,8 +181,12 @@ void decide(Hypothesis& hypothesis, const SceneContext& scene, const VerifyOptio
       features_in_area(hypothesis.view, hypothesis.scene_from_view, scene);
   hypothesis.measured = measure(hypothesis, scene);
   hypothesis.presence = rate_presence(hypothesis.measured);
-  if (hypothesis.presence.probability() >= least_probability(options.false_alarms_per_1000_images))
+  hypothesis.stage = HypothesisStage::presence;
+  if (hypothesis.presence.probability() >=
+      least_probability(options.false_alarms_per_1000_images)) {
+    hypothesis.stage = HypothesisStage::accepted;
     return;
+  }
   hypothesis.rejected = hypothesis.presence.object < hypothesis.presence.place
                             ? "a part of it agrees, but the rest looks like another thing"
                             : "it may be there, but too little agrees to say where";
@@ -224,6 +229,7 @@ Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
   // Refinement gains a few matches, not dozens: what is far from the goal now is given up.
   constexpr double kHopeless = 6;
   if (best.log10_false_alarms > kHopeless) {
+    best.stage = HypothesisStage::chance;
     best.rejected = "so much agreement happens by chance";
     return best;
   }

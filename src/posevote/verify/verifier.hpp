@@ -21,6 +21,14 @@ struct VerifyOptions {
   void describe(OptionList& list);
 };
 
+/// How far a hypothesis came: the test that it did not pass.
+enum class HypothesisStage {
+  pose,      ///< its votes agree on no plausible pose
+  chance,    ///< so much agreement happens by chance
+  presence,  ///< it is not probable enough
+  accepted   ///< it passed all; another may explain the same part of the picture better
+};
+
 /// A pose of a view with its evidence.
 struct Hypothesis {
   int view = 0;  ///< index into ModelSet::views()
@@ -31,6 +39,7 @@ struct Hypothesis {
   double log10_false_alarms = 0;  ///< per image, with the number of poses and views tried
   PresenceEvidence measured;
   Presence presence;
+  HypothesisStage stage = HypothesisStage::pose;
   std::string rejected;  ///< "" or why the cluster is no object: plain words
 };
 

@@ -208,11 +208,14 @@ std::shared_ptr<const Index> build(const ModelSet& models, const IndexOptions& o
     }
   }
   if (!quantizer) quantizer = train(coder, units, options);
+  std::size_t assigned = 0;
+  for (const auto& [unit, number] : units)
+    if (unit.lists.size() != unit.size()) assigned += unit.size();
   if (!units.empty())
     parts.push_back(prepare(coder, *quantizer, std::move(units), options.threads));
   join_small(coder, *quantizer, parts);
   return std::make_shared<ListIndex>(models.signature(), options, coder, quantizer,
-                                     std::move(parts));
+                                     std::move(parts), assigned);
 }
 
 }  // namespace

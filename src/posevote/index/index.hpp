@@ -26,6 +26,9 @@ struct IndexStatistics {
   std::size_t lists = 0;        ///< of the inverted file; 1 to 3 when all descriptors are scanned
   std::size_t segments = 0;     ///< parts prepared at different times
   std::size_t bytes = 0;        ///< memory beside the features themselves
+  /// Descriptors whose list had to be found when the index was made: none of the saved or previous
+  /// one's work could be used for them.
+  std::size_t assigned = 0;
 };
 
 /// Immutable; safe to search from many threads; deterministic.

@@ -365,6 +365,7 @@ TEST(GrowingIndex, SharesWhatItHasPrepared) {
   const auto after = make_index(make_models(views), approximate(), before.get());
   EXPECT_EQ(before->statistics().segments, 1U);
   EXPECT_EQ(after->statistics().segments, 2U);
+  EXPECT_EQ(after->statistics().assigned, 100U);
 }
 
 TEST(GrowingIndex, FindsTheSameViewInTwoObjects) {
@@ -384,6 +385,8 @@ TEST(SavedIndex, AnswersAsBefore) {
   const Features scene = seen_again(views);
   expect_equal(loaded->search(scene, 5), index->search(scene, 5));
   EXPECT_EQ(loaded->save(), index->save());
+  EXPECT_EQ(index->statistics().assigned, models->feature_count() + 30);
+  EXPECT_EQ(loaded->statistics().assigned, 0U);
 }
 
 TEST(SavedIndex, TakesAnOlderStateOfTheModels) {

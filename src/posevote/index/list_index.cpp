@@ -8,12 +8,14 @@
 
 namespace posevote {
 ListIndex::ListIndex(std::string signature, const IndexOptions& options, const Coder& coder,
-                     std::shared_ptr<const Quantizer> quantizer, std::vector<Part> parts)
+                     std::shared_ptr<const Quantizer> quantizer, std::vector<Part> parts,
+                     std::size_t assigned)
     : signature_(std::move(signature)),
       options_(options),
       coder_(coder),
       quantizer_(std::move(quantizer)),
-      parts_(std::move(parts)) {}
+      parts_(std::move(parts)),
+      assigned_(assigned) {}
 
 NeighborLists ListIndex::search(const Features& scene, int k) const {
   std::size_t all = 0;
@@ -34,6 +36,7 @@ NeighborLists ListIndex::search(const Features& scene, int k) const {
 IndexStatistics ListIndex::statistics() const {
   IndexStatistics result;
   result.segments = parts_.size();
+  result.assigned = assigned_;
   for (const Part& part : parts_) {
     result.bytes += part.segment->bytes() + part.numbers.capacity() * sizeof(Number);
     for (std::size_t u = 0; u < part.numbers.size(); ++u)

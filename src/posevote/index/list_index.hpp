@@ -29,7 +29,8 @@ class ListIndex : public Index {
   /// Nothing to find: descriptors have no dimension.
   ListIndex() = default;
   ListIndex(std::string signature, const IndexOptions& options, const Coder& coder,
-            std::shared_ptr<const Quantizer> quantizer, std::vector<Part> parts);
+            std::shared_ptr<const Quantizer> quantizer, std::vector<Part> parts,
+            std::size_t assigned);
 
   [[nodiscard]] NeighborLists search(const Features& scene, int k) const override;
   [[nodiscard]] std::string save() const override;
@@ -48,6 +49,7 @@ class ListIndex : public Index {
   Coder coder_{0};
   std::shared_ptr<const Quantizer> quantizer_;
   std::vector<Part> parts_;
+  std::size_t assigned_ = 0;
 };
 
 /// What `Index::save` wrote.

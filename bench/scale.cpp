@@ -11,6 +11,7 @@
 
 #include "posevote/index/index.hpp"
 #include "scale_peers.hpp"
+#include "scale_plot.hpp"
 
 namespace {
 
@@ -21,10 +22,10 @@ using Rows = std::vector<std::vector<int>>;  ///< for each query rows of the dat
 
 struct Settings {
   std::vector<std::string> datasets;
-  std::vector<int> sizes{10000, 100000};
+  std::vector<int> sizes{10000, 100000, 1000000, 3600000};
   std::string kind = "surf";
-  int queries = 1000, neighbors = 20, rounds = 5, peers_up_to = 100000;
-  bool hnsw = true;
+  int queries = 1000, neighbors = 24, rounds = 5;
+  int peers_up_to = 1000000, slow_peers_up_to = 100000;  ///< slow to build
   IndexOptions index;
 };
 
@@ -268,7 +269,8 @@ std::vector<Row> compare(const Settings& settings, const Problem& problem) {
   if (problem.descriptors <= settings.peers_up_to) {
     plain = plain_truth(settings, problem);
     for (const auto& kind : bench::peer_kinds())
-      if (settings.hnsw || !kind.slow_build) contestants.push_back(theirs(settings, problem, kind));
+      if (!kind.slow_build || problem.descriptors <= settings.slow_peers_up_to)
+        contestants.push_back(theirs(settings, problem, kind));
   }
   for (int round = 0; round < settings.rounds; ++round)
     for (std::size_t c = 0; c < contestants.size(); ++c) {
@@ -330,7 +332,25 @@ json to_json(const Row& row) {
           {"memory_mb", row.memory_mb}};
 }
 
-int run(const Settings& settings, const std::string& json_file) {
+std::string draw(const std::vector<Row>& rows) {
+  const auto panel = [&](const std::string& title, auto value) {
+    bench::Panel result{title, {}};
+    for (const Row& row : rows) {
+      auto curve = std::find_if(result.curves.begin(), result.curves.end(),
+                                [&](const auto& c) { return c.name == row.method; });
+      if (curve == result.curves.end())
+        curve = result.curves.insert(curve, bench::Curve{row.method, {}});
+      if (value(row) > 0) curve->points.emplace_back(row.descriptors, value(row));
+    }
+    return result;
+  };
+  return bench::plot_svg(
+      "taught descriptors",
+      {panel("time of a query, us", [](const Row& row) { return row.us_per_query; }),
+       panel("memory beside the features, MB", [](const Row& row) { return row.memory_mb; })});
+}
+
+int run(const Settings& settings, const std::string& json_file, const std::string& svg_file) {
   FeatureOptions feature;
   feature.kind = settings.kind;
   const auto extractor = make_extractor(feature);
@@ -343,15 +363,18 @@ int run(const Settings& settings, const std::string& json_file) {
   std::printf(
       "| taught | search | us/query | 1st | matches | all k | build s | load s | "
       "add view ms | MB |\n|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+  std::vector<Row> rows;
   json report = json::array();
   for (const int size : settings.sizes) {
     const Problem problem = make_problem(settings, pictures, size);
     for (const Row& row : compare(settings, problem)) {
       print(row);
+      rows.push_back(row);
       report.push_back(to_json(row));
     }
   }
   if (!json_file.empty()) std::ofstream(json_file) << report.dump(2) << '\n';
+  if (!svg_file.empty()) std::ofstream(svg_file) << draw(rows);
   return 0;
 }
 
@@ -359,7 +382,7 @@ int run(const Settings& settings, const std::string& json_file) {
 
 int main(int argc, char** argv) {
   Settings settings;
-  std::string json_file;
+  std::string json_file, svg_file;
   CLI::App app("Search time, recall, memory and preparation by number of taught descriptors.");
   settings.datasets = {POSEVOTE_SOURCE_DIR "/data/demo"};
   app.add_option("--dataset", settings.datasets, "Folders with dataset.json")
@@ -372,11 +395,13 @@ int main(int argc, char** argv) {
   app.add_option("--probes", settings.index.probes, "Lists looked through");
   app.add_option("--threads", settings.index.threads, "Threads of our search");
   app.add_option("--peers-up-to", settings.peers_up_to, "Other libraries up to this size");
-  app.add_flag("!--no-hnsw", settings.hnsw, "Leave hnswlib out (slow to build)");
+  app.add_option("--slow-peers-up-to", settings.slow_peers_up_to,
+                 "Those that are slow to build up to this size");
+  app.add_option("--svg", svg_file, "Draw the results in this file");
   app.add_option("--json", json_file, "Write the results to this file");
   CLI11_PARSE(app, argc, argv);
   try {
-    return run(settings, json_file);
+    return run(settings, json_file, svg_file);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;

@@ -116,7 +116,7 @@ std::vector<PeerKind> peer_kinds() {
 #if POSEVOTE_BENCH_FAISS
   add("FAISS flat", true, false, [](const cv::Mat& d) { return std::make_unique<Faiss>(d, 0, 0); });
   for (const int probes : {16, 64})
-    add("FAISS IVF nprobe " + std::to_string(probes), false, false, [probes](const cv::Mat& d) {
+    add("FAISS IVF nprobe " + std::to_string(probes), false, true, [probes](const cv::Mat& d) {
       const int lists = static_cast<int>(4 * std::sqrt(double(d.rows)));
       return std::make_unique<Faiss>(d, lists, probes);
     });

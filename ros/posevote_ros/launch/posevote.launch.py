@@ -23,7 +23,8 @@ ARGUMENTS = {
     "database": ("", "file of the objects; empty: that of the program posevote"),
     "heights": ("", "heights in metres, which give poses: mug=0.095; poster=0.6"),
     "tf": ("false", "send a tf frame for every confirmed object with a pose"),
-    "params": (None, "a YAML file of further parameters"),  # default: config/posevote.yaml
+    # Default: config/posevote.yaml.
+    "params": (None, "a YAML file of parameters, which win over these arguments"),
     "autostart": ("true", "configure and activate the node"),
     "rviz": ("false", "also show the results"),
     "studio": ("false", "also serve the page for teaching in a browser"),
@@ -44,10 +45,10 @@ def generate_launch_description():
     node = LifecycleNode(
         package="posevote_ros", executable="posevote_node", name="posevote", namespace="",
         output="screen", remappings=[("image", LaunchConfiguration("image"))],
-        parameters=[LaunchConfiguration("params"),
-                    {"transport": text["transport"], "database": text["database"],
+        parameters=[{"transport": text["transport"], "database": text["database"],
                      "object_heights": text["heights"],
-                     "publish_tf": ParameterValue(LaunchConfiguration("tf"), value_type=bool)}])
+                     "publish_tf": ParameterValue(LaunchConfiguration("tf"), value_type=bool)},
+                    LaunchConfiguration("params")])
     autostart = IfCondition(LaunchConfiguration("autostart"))
     return LaunchDescription(
         [DeclareLaunchArgument(name, default_value=defaults.get(name, value),

@@ -17,6 +17,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+#if defined(POSEVOTE_WITH_SURF) && !POSEVOTE_WITH_SURF
+constexpr const char* kind = "sift";
+constexpr const char* other_kind = "surf";
+#else
+constexpr const char* kind = "surf";
+constexpr const char* other_kind = "sift";
+#endif
+
 cv::Mat demo(const std::string& path) {
   return read_image(std::string(POSEVOTE_SOURCE_DIR) + "/data/demo/" + path);
 }
@@ -35,6 +43,7 @@ class ObjectRecognitionTest : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     settings_["database"] = (folder_ / "objects.db").string();
+    if (std::string(kind) == "sift") settings_["feature.kind"] = kind;
   }
   ~ObjectRecognitionTest() override { fs::remove_all(folder_); }
 
@@ -82,6 +91,7 @@ TEST_F(ObjectRecognitionTest, FollowsWhatAnotherProgramTeaches) {
 }
 
 TEST_F(ObjectRecognitionTest, TakesOverTheFeaturesThatAnotherProgramUsed) {
+  if (std::string(kind) == "sift") GTEST_SKIP() << "this build has one kind only";
   ObjectRecognition node(settings_);
   {
     Settings sift = settings_;
@@ -190,7 +200,7 @@ TEST_F(ObjectRecognitionTest, ChangesOptionsAllOrNothing) {
   EXPECT_THROW(node.set({{"track.confirm_after", "7"}, {"match.no_such", "1"}}), Error);
   EXPECT_EQ(node.options().track.confirm_after, TrackOptions().confirm_after);
   EXPECT_THROW(node.set({{"database", "/other.db"}}), Error);
-  EXPECT_THROW(node.set({{"feature.kind", "sift"}}), Error);  // the database holds SURF
+  EXPECT_THROW(node.set({{"feature.kind", other_kind}}), Error);  // not in this database
   EXPECT_THROW(node.set({{"object_heights", "mug"}}), Error);
   EXPECT_EQ(node.recognize(scene_, {}).objects.size(), 1u);
   node.set({{"feature.max_features", "1"}, {"track.confirm_after", "1"}});

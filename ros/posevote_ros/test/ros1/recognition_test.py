@@ -52,7 +52,8 @@ class RecognitionTest(unittest.TestCase):
         self.infos = rospy.Publisher("/camera/camera_info", CameraInfo, queue_size=1, latch=True)
         for name in objects():
             self.assertTrue(call("remove_object", srv.RemoveObject, object=name).success)
-        result, _ = teach(self.teaching, "poster", [demo.image("train/poster/cover.jpg")], method="whole")
+        result, _ = teach(self.teaching, "poster", [demo.image("train/poster/cover.jpg")],
+                          method="whole")
         self.assertTrue(result.success, result.message)
         self.collectors = []
 
@@ -253,7 +254,7 @@ class RecognitionTest(unittest.TestCase):
                Image(width=1280, height=960, step=3840, encoding="rgb8", data=b"short"),
                Image(width=4000000000, height=4000000000, step=1, encoding="mono8", data=b"x"),
                Image(width=2, height=2, step=2, encoding="no such", data=b"1234"),
-               Image(width=1, height=1, step=1, encoding="mono8", data=b"1")]  # this one is a picture
+               Image(width=1, height=1, step=1, encoding="mono8", data=b"1")]  # a picture, small
         for message in bad:
             self.send(message)
             rospy.sleep(0.2)  # else the newest only is looked at

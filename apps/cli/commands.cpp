@@ -7,7 +7,7 @@
 namespace posevote::cli {
 
 void add_commands(CLI::App& app, CommandContext& context) {
-  for (const auto add : {add_teach, add_recognize, add_batch, add_objects, add_sync})
+  for (const auto add : {add_teach, add_recognize, add_explain, add_batch, add_objects, add_sync})
     add(app, context);
 #ifdef POSEVOTE_WITH_SERVER
   add_serve(app, context);

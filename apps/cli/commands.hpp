@@ -10,6 +10,7 @@ void add_bench(CLI::App& app, CommandContext& context);
 void add_completion(CLI::App& app, CommandContext& context);
 void add_dataset(CLI::App& app, CommandContext& context);
 void add_evaluate(CLI::App& app, CommandContext& context);
+void add_explain(CLI::App& app, CommandContext& context);
 void add_man(CLI::App& app, CommandContext& context);
 void add_objects(CLI::App& app, CommandContext& context);
 void add_options(CLI::App& app, CommandContext& context);

@@ -147,6 +147,24 @@ TEST_F(Commands, AnnotatedPicturesAreWritten) {
   EXPECT_TRUE(outcome.err.empty()) << "no progress bar without a terminal";
 }
 
+TEST_F(Commands, ExplainSaysWhatBecameOfAnObjectAndDrawsIt) {
+  teach_poster();
+  const Outcome seen = run({"explain", demo("train/poster/cover.jpg"), "--object", "poster",
+                            "--json", "--draw", path("why.png")});
+  EXPECT_EQ(seen.status, 0) << seen.err;
+  const Json line = Json::parse(seen.lines().at(0));
+  EXPECT_TRUE(line["found"]);
+  EXPECT_GT(line["matched"], line["largest_bin"].get<int>() / 2);
+  EXPECT_EQ(line["best"]["object"], "poster");
+  EXPECT_EQ(cv::imread(path("why.png")).cols, 2 * poster_.cols);
+  const Outcome unseen = run({"explain", demo("train/muesli/background.jpg")});
+  EXPECT_THAT(unseen.out, HasSubstr("poster: not found"));
+  EXPECT_THAT(unseen.out, HasSubstr("(option "));
+  const Outcome unknown = run({"explain", demo("train/poster/cover.jpg"), "--object", "postr"});
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean 'poster'?"));
+}
+
 TEST_F(Commands, ObjectsCanBeRenamedExportedRemovedAndImported) {
   teach_poster();
   EXPECT_EQ(run({"objects", "rename", "poster", "das große Bild"}).status, 0);

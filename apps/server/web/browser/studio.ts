@@ -142,6 +142,7 @@ function serve(folder: string, port: number, more: string[], said: string[]): Ch
     ["serve", "--db", join(folder, "objects.db"), "--listen", `127.0.0.1:${port}`, ...more],
     { stdio: ["ignore", "pipe", "pipe"] },
   );
+  process.once("exit", () => server.kill("SIGKILL")); // also after a test that failed half-way
   server.stdout!.on("data", (text) => said.push(String(text)));
   server.stderr!.on("data", (text) => said.push(String(text)));
   return server;

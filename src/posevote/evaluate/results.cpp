@@ -65,6 +65,18 @@ ordered_json summary_json(const Summary& summary) {
             {"total", time_json(summary.total)}}}};
 }
 
+ordered_json measured_json(const PresenceEvidence& measured) {
+  const Agreement& agreement = measured.agreement;
+  return {{"digits", number(measured.digits)},
+          {"confidence", number(measured.confidence)},
+          {"coverage", number(measured.coverage)},
+          {"distortion", number(measured.distortion)},
+          {"structure", number(agreement.structure)},
+          {"structure_near_matches", number(agreement.structure_near_matches)},
+          {"colour_difference", number(agreement.colour_difference)},
+          {"visible", number(agreement.visible)}};
+}
+
 ordered_json detection_json(const Dataset& dataset, const TestOutcome& outcome, std::size_t i) {
   const DatasetTest& test = dataset.tests[outcome.test];
   const Detection& detection = outcome.result.detections[i];
@@ -81,7 +93,8 @@ ordered_json detection_json(const Dataset& dataset, const TestOutcome& outcome, 
                     {"inliers", detection.inliers},
                     {"features_in_area", detection.features_in_area},
                     {"box", box_json(detection.box)},
-                    {"iou", rounded(judgement.iou, 1000)}};
+                    {"iou", rounded(judgement.iou, 1000)},
+                    {"measured", measured_json(detection.measured)}};
   if (!detection.alternatives.empty()) line["alternatives"] = detection.alternatives;
   if (judgement.truth >= 0) {
     const TruthObject& truth = test.objects[static_cast<std::size_t>(judgement.truth)];

@@ -15,7 +15,7 @@ struct Model {
   Inputs weights;
 };
 
-// Fitted by bench_calibrate on the development sets; what it prints goes here.
+// Fitted on the development sets: bench/calibrate_presence.py says how, and prints these lines.
 constexpr Model kObject{-5.90, {1.687, 0.936, 3.998, 0.950, 3.892, -10.057, 4.756, 1.637}};
 constexpr Model kPlace{-3.62, {1.213, -0.766, 3.728, 2.963, 2.259, 1.292, -2.488, -1.279}};
 

@@ -19,6 +19,7 @@ namespace {
 struct Exchange {
   SocketStream& stream;
   const std::atomic<bool>& stopping;
+  bool understood = false;    ///< its head was
   bool body_pending = false;  ///< a body was announced and not read to its end
 };
 thread_local Exchange* exchange = nullptr;
@@ -169,8 +170,11 @@ class HttpServer::Listener : public httplib::Server {
         const bool answered = process_request(stream, false, closed,
                                               [&](httplib::Request& request) { prepare(request); });
         exchange = nullptr;
-        if (now.body_pending) stream.linger();
-        if (!answered || closed || now.body_pending) break;
+        if (now.body_pending || !now.understood) {
+          stream.linger();
+          break;
+        }
+        if (!answered || closed) break;
       }
     }
     shutdown(socket, SHUT_RDWR);
@@ -191,6 +195,7 @@ class HttpServer::Listener : public httplib::Server {
   /// The library matches paths by regular expressions, which recurse once per character, and after
   /// decoding, which loses the difference of / and %2F. We route by `target` instead.
   static void prepare(httplib::Request& request) {
+    exchange->understood = true;
     request.path.assign(1, '/');
     request.ranges.clear();
     request.headers.erase("Accept-Encoding");  // no compression on the fly: the CPU has other work
@@ -213,6 +218,7 @@ class HttpServer::Listener : public httplib::Server {
     }
     to.status = response.status;
     for (const auto& [name, value] : response.headers) to.headers.emplace(name, value);
+    if (exchange->body_pending) to.headers.emplace("Connection", "close");
     if (response.stream) {
       exchange->stream.prefer_fresh();
       to.set_chunked_content_provider(response.type, [stream = std::move(response.stream)](

@@ -1,0 +1,264 @@
+// bench_server_soak [--clients N] [--seconds S] [--fps F] [--objects N]
+//
+// Starts `posevote serve` on a new database, teaches objects from the demo set, posts frames as a
+// client's camera would, and watches with N clients, every second one frames, the others events.
+// Prints one JSON object: memory at the beginning and the end, frames and results a second, the
+// time from posting a frame until clients have it and its result (percentiles, ms), frames that
+// were left out.
+#include <fcntl.h>
+#include <httplib.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  int clients = 8;
+  double seconds = 60;
+  double fps = 15;
+  int objects = 25;
+};
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Served {
+ public:
+  explicit Served(const std::string& folder) {
+    const std::string program = fs::read_symlink("/proc/self/exe").parent_path() / "posevote";
+    const std::string out = folder + "/out.txt", database = folder + "/objects.db";
+    pid_ = fork();
+    if (pid_ == 0) {
+      dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+      execl(program.c_str(), program.c_str(), "serve", "--listen", "127.0.0.1:0", "--db",
+            database.c_str(), static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    const std::string before = "http://127.0.0.1:";
+    for (int i = 0; i < 6000 && port_ == 0; ++i) {
+      const std::string said = content(out);
+      if (said.starts_with(before) && said.ends_with('\n'))
+        port_ = std::stoi(said.substr(before.size()));
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    if (port_ == 0) throw std::runtime_error("posevote serve does not begin");
+  }
+  ~Served() {
+    kill(pid_, SIGTERM);
+    waitpid(pid_, nullptr, 0);
+  }
+  Served(const Served&) = delete;
+  Served& operator=(const Served&) = delete;
+
+  httplib::Client client() const {
+    httplib::Client client("127.0.0.1", port_);
+    client.set_keep_alive(true);
+    client.set_tcp_nodelay(true);
+    client.set_read_timeout(30);
+    return client;
+  }
+
+  double metric(const std::string& name) const {
+    const auto result = client().Get("/metrics");
+    const std::size_t at = result ? result->body.find("\n" + name + " ") : std::string::npos;
+    return at == std::string::npos ? 0 : std::stod(result->body.substr(at + name.size() + 2));
+  }
+
+ private:
+  int pid_ = -1;
+  int port_ = 0;
+};
+
+/// Every view of the demo set as an object of its own, as many as are wanted.
+int teach(const Served& server, int wanted) {
+  int taught = 0;
+  auto client = server.client();
+  for (const auto& object : fs::directory_iterator("data/demo/train")) {
+    const fs::path background = object.path() / "background.jpg";
+    for (const auto& view : fs::directory_iterator(object)) {
+      if (taught == wanted) return taught;
+      if (view.path() == background) continue;
+      httplib::MultipartFormDataItems parts{
+          {"picture", content(view.path()), "picture.jpg", "image/jpeg"}};
+      if (fs::exists(background))
+        parts.push_back({"background", content(background), "background.jpg", "image/jpeg"});
+      const std::string name =
+          object.path().filename().string() + "-" + view.path().stem().string();
+      const auto result = client.Post("/api/objects/" + name + "/views", parts);
+      if (result && result->status == 201) ++taught;
+    }
+  }
+  return taught;
+}
+
+/// When frames were posted, and how long they took to arrive.
+class Times {
+ public:
+  void posted(std::int64_t frame, Clock::time_point when) {
+    const std::lock_guard lock(mutex_);
+    posted_[frame] = when;
+  }
+  void arrived(std::int64_t frame, std::vector<double>& delays_ms) {
+    const auto now = Clock::now();
+    const std::lock_guard lock(mutex_);
+    const auto at = posted_.find(frame);
+    if (at != posted_.end())
+      delays_ms.push_back(std::chrono::duration<double, std::milli>(now - at->second).count());
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::int64_t, Clock::time_point> posted_;
+};
+
+/// Posts the test pictures one after the other at a steady rate.
+void post_frames(const Served& server, const Options& options, Times& times,
+                 const std::atomic<bool>& stop) {
+  std::vector<std::string> pictures;
+  for (const auto& entry : fs::directory_iterator("data/demo/test"))
+    pictures.push_back(content(entry.path()));
+  auto client = server.client();
+  auto due = Clock::now();
+  std::int64_t next = server.metric("posevote_frames_total") > 0 ? -1 : 0;
+  for (std::size_t i = 0; !stop; ++i) {
+    std::this_thread::sleep_until(due);
+    due = std::max(due + std::chrono::duration_cast<Clock::duration>(
+                             std::chrono::duration<double>(1 / options.fps)),
+                   Clock::now());
+    const auto begin = Clock::now();
+    if (next >= 0) times.posted(next, begin);  // it may arrive before the answer does
+    const auto result = client.Post("/api/live/frame", pictures[i % pictures.size()], "image/jpeg");
+    if (!result || result->status != 200) continue;
+    const std::int64_t number = Json::parse(result->body)["frame"];
+    times.posted(number, begin);
+    next = number + 1;
+  }
+}
+
+/// Watches a stream; `mark` stands before each frame's number.
+void watch(const Served& server, const std::string& path, const std::string& mark, Times& times,
+           std::vector<double>& delays_ms, const std::atomic<bool>& stop) {
+  auto client = server.client();
+  std::string text;
+  client.Get(path, [&](const char* data, std::size_t size) {
+    text.append(data, size);
+    std::size_t at = 0, done = 0;
+    while ((at = text.find(mark, done)) != std::string::npos &&
+           text.size() > at + mark.size() + 20) {
+      times.arrived(std::stoll(text.substr(at + mark.size(), 20)), delays_ms);
+      done = at + mark.size();
+    }
+    text.erase(0, std::max(done, text.size() > 100 ? text.size() - 100 : 0));
+    return !stop.load();
+  });
+}
+
+Json percentiles(std::vector<double> values) {
+  if (values.empty()) return nullptr;
+  std::ranges::sort(values);
+  const auto at = [&](double share) {
+    return std::round(10 * values[static_cast<std::size_t>(share * double(values.size() - 1))]) /
+           10;
+  };
+  return {{"p50", at(0.5)}, {"p95", at(0.95)}, {"max", values.back()}};
+}
+
+std::vector<double> join(const std::vector<std::vector<double>>& lists) {
+  std::vector<double> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+Json run(const Options& options) {
+  std::string folder = (fs::temp_directory_path() / "posevote-soak-XXXXXX").string();
+  if (!mkdtemp(folder.data())) throw std::runtime_error("cannot make a temporary folder");
+  Json report{{"clients", options.clients}, {"seconds", options.seconds}};
+  {
+    const Served server(folder);
+    report["objects"] = teach(server, options.objects);
+    Times times;
+    std::atomic<bool> stop = false;
+    const auto count = static_cast<std::size_t>(options.clients);
+    std::vector<std::vector<double>> frames(count), results(count);
+    std::vector<std::thread> threads;
+    threads.emplace_back([&] { post_frames(server, options, times, stop); });
+    for (std::size_t i = 0; i < count; ++i)
+      threads.emplace_back([&, i] {
+        if (i % 2 == 0)
+          watch(server, "/api/stream.mjpg", "X-Frame: ", times, frames[i], stop);
+        else
+          watch(server, "/api/events", "],\"frame\":", times, results[i], stop);
+      });
+    Json memory = Json::array();
+    const auto begin = Clock::now();
+    const double step = options.seconds / 10;
+    for (int i = 1; i <= 10; ++i) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(i * step - seconds_since(begin)));
+      memory.push_back(std::round(server.metric("process_resident_memory_bytes") / 1e5) / 10);
+    }
+    const double frames_total = server.metric("posevote_frames_total");
+    report["memory_mb"] = memory;
+    report["source_fps"] = frames_total / options.seconds;
+    report["recognized_fps"] =
+        server.metric("posevote_recognitions_total{of=\"live\"}") / options.seconds;
+    report["frames_skipped"] = server.metric("posevote_frames_skipped_total");
+    report["frames_missed_by_clients"] = server.metric("posevote_stream_frames_missed_total");
+    stop = true;
+    for (std::thread& thread : threads) thread.join();
+    report["frame_delay_ms"] = percentiles(join(frames));
+    report["result_delay_ms"] = percentiles(join(results));
+  }
+  fs::remove_all(folder);
+  return report;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string name = argv[i];
+    const double value = std::atof(argv[i + 1]);
+    if (name == "--clients")
+      options.clients = static_cast<int>(value);
+    else if (name == "--seconds")
+      options.seconds = value;
+    else if (name == "--fps")
+      options.fps = value;
+    else if (name == "--objects")
+      options.objects = static_cast<int>(value);
+    else
+      return std::cerr << "bench_server_soak: there is no option " << name << '\n', 2;
+  }
+  try {
+    std::cout << run(options).dump(2) << '\n';
+  } catch (const std::exception& error) {
+    std::cerr << "bench_server_soak: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,157 @@
+// The server's end, expected and not; its camera's; its numbers.
+#include <signal.h>
+
+#include <atomic>
+#include <filesystem>
+
+#include "server_process.hpp"
+
+namespace posevote {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Life : public ServerTest {
+ protected:
+  std::string session_with_view() {
+    const std::string one =
+        "/api/teach-sessions/" + post("/api/teach-sessions")["session"].get<std::string>();
+    post(one + "/proposal", content(demo("train/poster/cover.jpg")));
+    post(one + "/views");
+    return one;
+  }
+};
+
+TEST_F(Life, TerminatedItAnswersWhatIsInHand) {
+  start();
+  std::atomic<int> begun = 0, answered = 0;
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 3; ++i)
+    clients.emplace_back([&] {
+      auto client = this->client();
+      const std::string scene = content(demo("test/kitchen.jpg"));
+      for (;;) {
+        ++begun;
+        const auto result = client.Post("/api/recognize", scene, "image/jpeg");
+        if (!result) return;  // a new request found the server gone
+        EXPECT_EQ(result->status, 200);
+        ++answered;
+      }
+    });
+  ASSERT_TRUE(eventually([&] { return answered >= 3; }));
+  server_->send_signal(SIGTERM);
+  EXPECT_EQ(server_->wait(), 0);
+  for (std::thread& one : clients) one.join();
+}
+
+TEST_F(Life, TerminatedWhilePeopleWatch) {
+  start({"--camera", make_camera("camera", {demo("test/breakfast.jpg")})});
+  std::thread watcher([&] {
+    auto client = this->client();
+    client.Get("/api/stream.mjpg", [&](const char*, std::size_t) {
+      server_->send_signal(SIGTERM);
+      return true;
+    });
+  });
+  watcher.join();  // the stream ends by itself
+  EXPECT_EQ(server_->wait(), 0);
+}
+
+TEST_F(Life, KilledItLosesTheViewInHandAtMost) {
+  start();
+  const std::string one = session_with_view();
+  post(one + "/proposal", content(demo("train/muesli/y000.jpg")));
+  server_->send_signal(SIGKILL);
+  EXPECT_EQ(server_->wait(), -SIGKILL);
+  start();
+  const Json session = get(one);
+  EXPECT_EQ(session["views"].size(), 1U);
+  EXPECT_EQ(session["proposal"], false);
+  post(one + "/save", R"({"object": "poster"})", "application/json");
+  EXPECT_EQ(get("/api/objects/poster")["views"].size(), 1U);
+}
+
+TEST_F(Life, KilledAtAnyMomentOfTeachingNothingAcceptedIsLost) {
+  start();
+  const std::string one = session_with_view();
+  std::atomic<std::size_t> accepted = 1;
+  for (int round = 0; round < 3; ++round) {
+    const std::size_t before = accepted;
+    std::thread teacher([&] {
+      auto client = this->client();
+      for (int deg = 0; deg < 324; deg += 36) {
+        char name[40];
+        std::snprintf(name, sizeof name, "train/book/y%03d.jpg", deg);
+        const std::string whole = "/proposal?whole=true&yaw=" + std::to_string(round * 7 + deg);
+        if (!client.Post(one + whole, content(demo(name)), "image/jpeg")) return;
+        const auto result = client.Post(one + "/views");
+        if (!result) return;
+        if (result->status == 201) ++accepted;
+      }
+    });
+    EXPECT_TRUE(eventually([&] { return accepted > before; }));
+    server_->send_signal(SIGKILL);
+    server_->wait();
+    teacher.join();
+    start();
+    const std::size_t kept = get(one)["views"].size();
+    EXPECT_GE(kept, accepted);
+    EXPECT_LE(kept, accepted + 1) << "the one in hand may have been finished";
+    accepted = kept;
+  }
+}
+
+TEST_F(Life, ALostSourceIsToldAndComesBackByItself) {
+  const std::string camera = make_camera("camera", {demo("test/breakfast.jpg")});
+  start({"--camera", camera, "--fps", "20"});
+  const auto state_is = [&](const std::string& state) {
+    return eventually([&] { return get("/api/live")["state"] == state; });
+  };
+  EXPECT_TRUE(state_is("running"));
+  fs::rename(camera, camera + "-away");
+  EXPECT_TRUE(state_is("lost"));
+  const Json lost = get("/api/live");
+  EXPECT_NE(lost["message"].get<std::string>().find("camera"), std::string::npos);
+  EXPECT_FALSE(lost.contains("result"));
+  fs::rename(camera + "-away", camera);
+  EXPECT_TRUE(state_is("running"));
+  EXPECT_EQ(get("/api/live")["message"], "");
+}
+
+TEST_F(Life, ASourceThatIsNotThereYetIsWaitedFor) {
+  const std::string camera = folder_ + "/later";
+  start({"--camera", camera, "--camera", "client"});
+  EXPECT_TRUE(eventually([&] { return get("/api/live")["state"] == "lost"; }));
+  make_camera("later", {demo("test/breakfast.jpg")});
+  EXPECT_TRUE(eventually([&] { return get("/api/live")["state"] == "running"; }));
+}
+
+TEST_F(Life, MetricsCountWhatHappened) {
+  start({"--camera", make_camera("camera", {demo("test/breakfast.jpg")})});
+  teach_poster();
+  post("/api/recognize", content(demo("train/poster/cover.jpg")));
+  EXPECT_EQ(client().Get("/api/objects/nobody")->status, 404);
+  const std::string all = client().Get("/metrics")->body;
+  for (const std::string line :
+       {"posevote_recognitions_total{of=\"upload\"} 1", "posevote_objects 1", "posevote_views 1",
+        "posevote_views_taught_total 1", "posevote_http_requests_total{status=\"404\"} 1",
+        "# TYPE posevote_stage_seconds histogram", "posevote_detections_total 1"})
+    EXPECT_NE(all.find(line), std::string::npos) << line << "\n" << all;
+  for (const std::string name :
+       {"posevote_stage_seconds_bucket{stage=\"detect\",le=\"+Inf\"}", "posevote_frames_total",
+        "posevote_frames_skipped_total", "posevote_database_bytes", "posevote_features_total",
+        "posevote_result_age_seconds_count", "process_resident_memory_bytes"})
+    EXPECT_NE(all.find(name), std::string::npos) << name;
+}
+
+TEST_F(Life, WhatOthersTeachIsTakenOver) {
+  start();
+  const std::string command = std::string(POSEVOTE_PROGRAM) + " teach poster --whole " +
+                              demo("train/poster/cover.jpg") + " --db " + folder_ +
+                              "/objects.db > /dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_TRUE(eventually([&] { return get("/api/live")["objects"] == 1; }));
+}
+
+}  // namespace
+}  // namespace posevote

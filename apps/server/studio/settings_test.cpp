@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "posevote/core/error.hpp"
+#include "posevote/verify/verifier.hpp"
 
 namespace posevote::server {
 namespace {
@@ -49,7 +50,7 @@ TEST_F(SettingsTest, ChangesAreKept) {
   EXPECT_EQ(value(open(), kDial), 0.25);
   EXPECT_EQ(value(open(), "live.stream_width"), 320);
   settings.change({{kDial, nullptr}});
-  EXPECT_EQ(value(open(), kDial), 1.0);
+  EXPECT_EQ(value(open(), kDial), VerifyOptions().false_alarms_per_1000_images);
   EXPECT_EQ(settings.generation(), 2);
 }
 
@@ -63,7 +64,7 @@ TEST_F(SettingsTest, AllOrNothing) {
                                            {{"recognize.feature.max_features", 5}},
                                            {{"limits.sessions", 5}}}) {
     EXPECT_THROW(settings.change(bad), Error) << bad;
-    EXPECT_EQ(value(settings, kDial), 1.0);
+    EXPECT_EQ(value(settings, kDial), VerifyOptions().false_alarms_per_1000_images);
   }
   EXPECT_FALSE(fs::exists(file_));
 }

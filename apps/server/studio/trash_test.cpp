@@ -20,7 +20,7 @@ class TrashTest : public testing::Test {
     fs::create_directories(folder_ + "/undo");
     store_ = open_sqlite_store(folder_ + "/objects.db");
     for (const char* name : {"a", "b"})
-      for (int i = 0; i < 2; ++i) add(name, name[0] + i);
+      for (int i = 0; i < 2; ++i) add(name, name[0] + 50 * i);
   }
   ~TrashTest() override {
     store_.reset();

@@ -5,9 +5,9 @@
 // same picture with the same mask and yaw: its identity.
 #pragma once
 
-#include <compare>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "posevote/store/object_store.hpp"
@@ -17,7 +17,12 @@ namespace posevote {
 /// A view, or an impostor: then `object` is "".
 struct ViewKey {
   std::string object, identity;
-  auto operator<=>(const ViewKey&) const = default;
+  friend bool operator==(const ViewKey& a, const ViewKey& b) {
+    return a.object == b.object && a.identity == b.identity;
+  }
+  friend bool operator<(const ViewKey& a, const ViewKey& b) {
+    return std::tie(a.object, a.identity) < std::tie(b.object, b.identity);
+  }
 };
 
 struct KnownView {

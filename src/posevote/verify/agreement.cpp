@@ -14,6 +14,7 @@ constexpr int kLeastSide = 24;  // px; of the smallest level
 constexpr double kStep = 1.6;   // px of a level per px of the patch, at most
 
 cv::Mat to_bgr8(const cv::Mat& image) {
+  if (image.empty()) return image;
   cv::Mat eight = image, bgr;
   if (image.depth() == CV_16U) image.convertTo(eight, CV_8U, 1.0 / 256);
   if (eight.channels() == 3) return eight;

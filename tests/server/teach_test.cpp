@@ -131,11 +131,11 @@ TEST_F(TeachOverHttp, SettingsAreKeptOverARestartAndGovernRecognition) {
   start();
   teach_poster();
   const std::string scene = content(demo("train/poster/cover.jpg"));
-  patch("/api/settings", {{"recognize.verify.min_confidence", 1}});
+  patch("/api/settings", {{"recognize.verify.min_inliers", 1000}});
   EXPECT_TRUE(names_of(post("/api/recognize", scene)).empty());
   start();
   EXPECT_TRUE(names_of(post("/api/recognize", scene)).empty()) << "it is kept";
-  patch("/api/settings", {{"recognize.verify.min_confidence", nullptr}});
+  patch("/api/settings", {{"recognize.verify.min_inliers", nullptr}});
   EXPECT_TRUE(names_of(post("/api/recognize", scene)).contains("poster"));
 }
 

@@ -38,8 +38,8 @@ void FeatureOptions::describe(OptionList& list) {
   list.add("kind", kind, {"surf", "sift"}, "Kind of features.");
   list.add("max_features", max_features, {0, 10'000'000}, "",
            "Keep this many of the strongest features of a picture; 0 keeps all.");
-  list.add("features_per_megapixel", features_per_megapixel, {0, 1e6}, "",
-           "SURF: in large pictures keep this many per million pixels, if that is more.");
+  list.add("more_in_large", more_in_large,
+           "SURF: pictures of more than 2 megapixels may keep more features, in proportion.");
   list.add(
       "double_below_px", double_below_px, {0, 1e9}, "px",
       "SURF: pictures of fewer pixels are searched from one octave lower (enlarged by two); 0: "
@@ -74,9 +74,9 @@ class SizeAwareExtractor : public Extractor {
   [[nodiscard]] Features extract(const cv::Mat& image, const cv::Mat& mask) const override {
     if (image.total() < static_cast<std::size_t>(options_.double_below_px))
       return doubled_->extract(image, mask);
-    const double limit =
-        options_.features_per_megapixel * static_cast<double>(image.total()) * 1e-6;
-    if (options_.max_features == 0 || limit <= options_.max_features)
+    constexpr double kLarge = 2e6;  // px
+    const double limit = options_.max_features * static_cast<double>(image.total()) / kLarge;
+    if (!options_.more_in_large || options_.max_features == 0 || limit <= options_.max_features)
       return plain_->extract(image, mask);
     Features features = unlimited_->extract(image, mask);
     if (static_cast<double>(features.size()) > limit) {

@@ -55,9 +55,9 @@ struct SiftOptions {
 };
 
 struct FeatureOptions {
-  std::string kind = "surf";          ///< "surf" or "sift"
-  int max_features = 6000;            ///< keep the strongest N; 0: all
-  int features_per_megapixel = 3000;  ///< SURF: the limit of large pictures, if that is more
+  std::string kind = "surf";  ///< "surf" or "sift"
+  int max_features = 6000;    ///< keep the strongest N; 0: all
+  bool more_in_large = true;  ///< SURF: beyond 2 megapixels the limit grows with the picture
   int double_below_px =
       600000;  ///< SURF: smaller pictures are searched from one octave lower; 0: none
   SurfOptions surf;

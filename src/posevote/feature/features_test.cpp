@@ -117,6 +117,16 @@ TEST_P(AnyExtractor, MaxFeaturesKeepsExactlyTheStrongest) {
   }
 }
 
+#if POSEVOTE_WITH_SURF
+TEST(MakeExtractor, LargePicturesMayKeepMoreInProportion) {
+  const cv::Mat large = made::texture(2000, 2000);
+  FeatureOptions options = options_of("surf", 40), strict = options;
+  strict.more_in_large = false;
+  EXPECT_EQ(make_extractor(options)->extract(large).size(), 80U);
+  EXPECT_EQ(make_extractor(strict)->extract(large).size(), 40U);
+}
+#endif
+
 TEST_P(AnyExtractor, PicturesOfAnySizeAreTaken) {
   const auto extractor = make_extractor(options_of(GetParam()));
   EXPECT_TRUE(extractor->extract(cv::Mat()).empty());

@@ -17,9 +17,9 @@ test("settings are changed, are in force, and go back to their defaults", async 
   await page.getByRole("button", { name: "Apply" }).click();
   await page.getByText("The settings are in force").waitFor();
   const { settings } = await studio.ask<{ settings: { value: number }[] }>("GET", "settings");
-  expect(settings[0]!.value).toBeCloseTo(0.32);
+  expect(settings[0]!.value).toBeCloseTo(3.2);
   await page.reload();
-  await page.getByText("0.32 in 1000").waitFor();
+  await page.getByText("3.2 in 1000").waitFor();
   await studio.stop();
 });
 

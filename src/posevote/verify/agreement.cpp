@@ -71,6 +71,17 @@ void compare_structure(const cv::Mat& view, const cv::Mat& scene, const cv::Mat&
   result.structure_near_matches = matched.value();
 }
 
+/// No pixel has a colour: a grey camera or a grey picture.
+bool is_grey(const cv::Mat& bgr) {
+  cv::Mat channels[3];
+  cv::split(bgr, channels);
+  return cv::norm(channels[0], channels[1], cv::NORM_INF) == 0 &&
+         cv::norm(channels[1], channels[2], cv::NORM_INF) == 0;
+}
+
+/// Median of right detections: says neither yes nor no.
+constexpr double kUsualColourDifference = 0.08;
+
 /// Shares of the channels: what a change of exposure leaves alone. Dark pixels, whose shares are
 /// noise, count as grey.
 double colour_difference(const cv::Mat& view, const cv::Mat& scene, const cv::Mat& mask) {
@@ -119,14 +130,14 @@ Patch fitting(const Patch& patch, double scene_step) {
 
 }  // namespace
 
-ScenePyramid::ScenePyramid(const cv::Mat& image)
-    : levels_{to_bgr8(image)}, colour_(image.channels() > 1) {
+ScenePyramid::ScenePyramid(const cv::Mat& image) : levels_{to_bgr8(image)} {
   while (std::min(levels_.back().rows, levels_.back().cols) > kLeastSide &&
          static_cast<int>(levels_.size()) < kMostLevels) {
     cv::Mat half;
     cv::pyrDown(levels_.back(), half);
     levels_.push_back(half);
   }
+  colour_ = !image.empty() && !is_grey(levels_.back());
 }
 
 void ScenePyramid::warp(const cv::Matx33d& scene_from_patch, double step, cv::Size size,
@@ -160,7 +171,9 @@ Agreement measure_agreement(const Patch& patch, const cv::Matx33d& scene_from_vi
   result.visible = static_cast<double>(seen) / area;
   cv::erode(mask, inner, cv::Mat());
   compare_structure(view.pixels, pixels, inner, hull_mask(matched, view), result);
-  result.colour_difference = colour_difference(view.pixels, pixels, mask);
+  result.colour_difference = scene.has_colour() && !is_grey(patch.pixels)
+                                 ? colour_difference(view.pixels, pixels, mask)
+                                 : kUsualColourDifference;
   return result;
 }
 

@@ -20,6 +20,7 @@ class ScenePyramid {
   void warp(const cv::Matx33d& scene_from_patch, double step, cv::Size size, cv::Mat& pixels,
             cv::Mat& inside) const;
 
+  /// False for grey pictures, also those that are stored as BGR.
   [[nodiscard]] bool has_colour() const noexcept { return colour_; }
 
  private:
@@ -32,7 +33,8 @@ struct Agreement {
   double structure = 0;  ///< mean cosine between the gradients of view and scene, -1 ... 1, where
                          ///< the view has an edge
   double structure_near_matches = 0;  ///< the same inside the hull of the matched features
-  double colour_difference = 0;  ///< mean sum of differences of the shares of B, G and R, 0 ... 2
+  double colour_difference = 0;  ///< mean sum of differences of the shares of B, G and R, 0 ... 2;
+                                 ///< where view or scene are grey a usual value
   double visible = 0;            ///< share of the object inside the picture
 };
 

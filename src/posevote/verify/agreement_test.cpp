@@ -84,6 +84,14 @@ TEST(MeasureAgreement, TakesGreyDeepAndTinyScenes) {
   for (const cv::Mat& scene : {grey, deep})
     EXPECT_GT(measure_agreement(whole(blobs(1)), pose, kCorners, ScenePyramid(scene)).structure,
               0.6);
+  cv::Mat grey_bgr;
+  cv::cvtColor(grey, grey_bgr, cv::COLOR_GRAY2BGR);
+  for (const cv::Mat& scene : {grey, grey_bgr}) {
+    EXPECT_FALSE(ScenePyramid(scene).has_colour());
+    EXPECT_LT(
+        measure_agreement(whole(blobs(1)), pose, kCorners, ScenePyramid(scene)).colour_difference,
+        0.1);
+  }
   const ScenePyramid tiny(cv::Mat(1, 1, CV_8U, cv::Scalar(3)));
   EXPECT_LE(measure_agreement(whole(blobs(1)), pose, kCorners, tiny).structure, 0.1);
 }

@@ -1,6 +1,7 @@
 #include "posevote/store/sync.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <sstream>
 
@@ -94,7 +95,7 @@ std::vector<KnownView> list_views(const ObjectStore& store) {
   }
   for (const ImpostorSummary& impostor : store.impostors())
     all.push_back({{"", impostor.identity}, impostor.id, "", impostor.provenance});
-  std::ranges::sort(all, {}, &KnownView::key);
+  std::ranges::sort(all, std::less<>(), &KnownView::key);
   return all;
 }
 
@@ -166,7 +167,7 @@ SyncReport sync_objects(ObjectStore& here, ObjectStore& there, const SyncOptions
   report.conflicts = plan.conflicts;
   std::set<ViewKey> both;  // what the two have in common afterwards
   for (const KnownView& view : views_here)
-    if (std::ranges::binary_search(views_there, view.key, {}, &KnownView::key))
+    if (std::ranges::binary_search(views_there, view.key, std::less<>(), &KnownView::key))
       both.insert(view.key);
 
   // Additions come first: whatever happens then, a renamed object is in one place at least.

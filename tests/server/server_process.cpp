@@ -31,9 +31,10 @@ Json parse(const httplib::Result& result, const std::string& what) {
 
 ServerProcess::ServerProcess(const std::string& folder, const std::vector<std::string>& arguments,
                              const std::map<std::string, std::string>& environment) {
-  std::vector<std::string> words{POSEVOTE_PROGRAM, "serve", "--listen",
-                                 "127.0.0.1:0",    "--db",  folder + "/objects.db"};
+  std::vector<std::string> words{POSEVOTE_PROGRAM, "serve", "--db", folder + "/objects.db"};
   words.insert(words.end(), arguments.begin(), arguments.end());
+  if (std::ranges::find(arguments, "--listen") == arguments.end())
+    words.insert(words.end(), {"--listen", "127.0.0.1:0"});
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

@@ -131,11 +131,11 @@ TEST_F(TeachOverHttp, SettingsAreKeptOverARestartAndGovernRecognition) {
   start();
   teach_poster();
   const std::string scene = content(demo("train/poster/cover.jpg"));
-  patch("/api/settings", {{"recognize.verify.min_inliers", 1000}});
+  patch("/api/settings", {{"recognize.verify.false_alarms_per_1000_images", 0.001}});
   EXPECT_TRUE(names_of(post("/api/recognize", scene)).empty());
   start();
   EXPECT_TRUE(names_of(post("/api/recognize", scene)).empty()) << "it is kept";
-  patch("/api/settings", {{"recognize.verify.min_inliers", nullptr}});
+  patch("/api/settings", {{"recognize.verify.false_alarms_per_1000_images", nullptr}});
   EXPECT_TRUE(names_of(post("/api/recognize", scene)).contains("poster"));
 }
 

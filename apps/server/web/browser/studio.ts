@@ -10,7 +10,10 @@ import { chromium, type Browser, type BrowserContextOptions, type Page } from "p
 export const demo = needed("POSEVOTE_DEMO");
 const shots = process.env.POSEVOTE_SHOTS;
 
-const kFrameMs = 1000;
+const kFrameMs = 500;
+const kTicks = 100; // a second, of /proc/PID/stat
+/// How long is waited for what must come; set by vitest.config.ts.
+const patience_ms = Number(needed("POSEVOTE_PATIENCE_MS"));
 const kFlags = [
   "--no-sandbox",
   "--disable-gpu",
@@ -61,7 +64,7 @@ export class Studio {
   async open(hash: string, options: BrowserContextOptions = {}): Promise<Page> {
     const context = await this.browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
     const page = await context.newPage();
-    page.setDefaultTimeout(40_000);
+    page.setDefaultTimeout(patience_ms);
     page.on("pageerror", (error) => this.complaints.push(error.message));
     page.on("console", (message) => {
       if (/Content.Security.Policy|Refused to/.test(message.text())) this.complaints.push(message.text());
@@ -78,19 +81,30 @@ export class Studio {
 
   /// Holds a picture of the demo set before the server's camera, which sees it again and again.
   async show(path: string): Promise<void> {
-    clearInterval(this.camera);
-    await this.posting;
+    await this.stop_camera(); // a frame of the last picture that comes late would be the newest
     const seen = picture(path);
     const { frame } = await this.ask<{ frame: number }>("POST", "live/frame", seen);
-    while ((await this.ask<{ frame: number }>("GET", "live")).frame < frame)
-      await new Promise((done) => setTimeout(done, 20));
-    this.camera = setInterval(() => {
-      this.posting = this.ask("POST", "live/frame", seen).catch(() => undefined);
-    }, kFrameMs);
+    while ((await this.ask<{ frame: number }>("GET", "live")).frame < frame) await pause(20);
+    let running = true;
+    const posting = (async () => {
+      while (running) {
+        await pause(kFrameMs);
+        if (running) await this.ask("POST", "live/frame", seen).catch(() => undefined);
+      }
+    })();
+    this.stop_camera = () => {
+      running = false;
+      return posting;
+    };
   }
 
-  private camera?: NodeJS.Timeout;
-  private posting: Promise<unknown> = Promise.resolve();
+  private stop_camera = (): Promise<void> => Promise.resolve();
+
+  /// Processor time that the server has taken so far: what others do on this machine is not in it.
+  server_seconds(): number {
+    const [user, system] = readFileSync(`/proc/${this.server.pid}/stat`, "utf8").split(") ")[1]!.split(" ").slice(11, 13);
+    return (Number(user) + Number(system)) / kTicks;
+  }
 
   async ask<T>(method: string, path: string, body?: Uint8Array<ArrayBuffer>): Promise<T> {
     const response = await fetch(`${this.address}/api/${path}`, {
@@ -124,7 +138,7 @@ export class Studio {
   }
 
   async stop(): Promise<void> {
-    clearInterval(this.camera);
+    await this.stop_camera();
     await this.browser.close();
     const ended = new Promise((done) => this.server.once("exit", done));
     if (this.server.exitCode === null && this.server.signalCode === null) {
@@ -153,9 +167,11 @@ async function answered(address: string, server: ChildProcess, said: string[]): 
     if (server.exitCode !== null) throw new Error(`The server ended:\n${said.join("")}`);
     const response = await fetch(`${address}/api/health`).catch(() => null);
     if (response?.ok) return;
-    await new Promise((done) => setTimeout(done, 50));
+    await pause(50);
   }
 }
+
+const pause = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
 
 function free_port(): Promise<number> {
   return new Promise((done) => {

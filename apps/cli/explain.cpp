@@ -7,6 +7,7 @@
 #include "pictures.hpp"
 #include "posevote/json/recognition_json.hpp"
 #include "posevote/recognize/explain.hpp"
+#include "posevote/recognize/trace.hpp"
 #include "posevote/render/draw_explanation.hpp"
 #include "settings.hpp"
 
@@ -44,15 +45,6 @@ void print_text(const Explanation& e) {
   std::printf("\n");
 }
 
-Json to_json(const Explanation& e) {
-  Json json{{"object", e.object},    {"found", e.found},     {"stage", e.stage},
-            {"reason", e.reason},    {"option", e.option},   {"scene_features", e.scene_features},
-            {"similar", e.similar},  {"matched", e.matched}, {"largest_bin", e.largest_bin},
-            {"clusters", e.clusters}};
-  if (e.best) json["best"] = posevote::to_json(*e.best);
-  return json;
-}
-
 Recognizer make_recognizer(const ExplainArguments& arguments) {
   const auto store = open_database(arguments.database, Access::existing);
   RecognizeOptions options = make_preset(arguments.preset);
@@ -76,8 +68,9 @@ void run(ExplainArguments arguments) {
   if (arguments.objects.empty())
     for (const ObjectModel& object : recognizer.models()->objects())
       arguments.objects.push_back(object.name);
+  const Trace trace = recognizer.trace(image);
   for (const std::string& object : arguments.objects) {
-    const Explanation explanation = explain(recognizer, image, object);
+    const Explanation explanation = explain(trace, recognizer.options(), object);
     if (arguments.json)
       std::cout << to_line(to_json(explanation)) << '\n';
     else

@@ -77,6 +77,7 @@ class Contract : public ServerTest {
   void things_that_are_not_there();
   void server_operations();
   void live_operations();
+  void explain_operations();
   void object_operations();
   void teach_operations();
   void impostor_operations();
@@ -199,6 +200,27 @@ void Contract::live_operations() {
   expect("POST /api/recognize", 200, "/api/recognize?format=jpeg", cover_);
   expect("POST /api/recognize", 400, "/api/recognize?format=gif", cover_);
   expect("POST /api/recognize", 422, "/api/recognize", "no picture");
+}
+
+void Contract::explain_operations() {
+  expect("POST /api/explain", 200, "/api/explain", cover_);
+  expect("POST /api/explain", 200, "/api/explain?object=poster&format=jpeg", cover_);
+  expect("POST /api/explain", 400, "/api/explain?format=jpeg", cover_);
+  expect("POST /api/explain", 404, "/api/explain?object=nobody", cover_);
+  expect("POST /api/explain", 404, "/api/explain?object=nobody&format=jpeg", cover_);
+  expect("POST /api/explain", 404, "/api/explain?frame=999999999");
+  expect("POST /api/explain", 422, "/api/explain", "no picture");
+  const Json found = post("/api/explain?object=poster", cover_)["explanations"][0];
+  EXPECT_EQ(found["stage"], "found");
+  ASSERT_TRUE(eventually([&] { return get("/api/live").contains("result"); }));
+  const std::string frame = get("/api/live")["result"]["frame"].dump();
+  const Json missing = post("/api/explain?frame=" + frame)["explanations"][0];
+  EXPECT_EQ(missing["found"], false);
+  const Json settings = get("/api/settings")["settings"];
+  for (const Json& explained : {found, missing})
+    EXPECT_TRUE(std::ranges::any_of(settings, [&](const Json& setting) {
+      return setting["name"] == explained["option"];
+    })) << explained;
 }
 
 void Contract::object_operations() {
@@ -325,6 +347,7 @@ void Contract::too_much() {
   const std::string views = "/api/objects/{object}/views/{view}";
   const std::vector<std::tuple<std::string, std::string, std::string>> requests{
       {"POST /api/recognize", "/api/recognize", cover_},
+      {"POST /api/explain", "/api/explain", cover_},
       {"POST /api/impostors", "/api/impostors", cover_},
       {"POST /api/objects/{object}/views", "/api/objects/poster/views", cover_},
       {"PUT " + views + "/mask", "/api/objects/poster/views/" + ids_["view"] + "/mask", cover_},
@@ -362,6 +385,7 @@ TEST_F(Contract, EveryPathAndEveryStatus) {
   other_sites();
   server_operations();
   live_operations();
+  explain_operations();
   object_operations();
   teach_operations();
   impostor_operations();

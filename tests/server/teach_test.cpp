@@ -109,7 +109,10 @@ TEST_F(TeachOverHttp, AWrongDetectionIsNotMadeAgain) {
   }));
   const Json box = result["detections"][0]["box"];
   std::string text;
-  for (const Json& number : box) text += (text.empty() ? "" : ",") + number.dump();
+  for (const Json& number : box) {
+    if (!text.empty()) text += ',';
+    text += number.dump();
+  }
   const Json impostor = post("/api/impostors?frame=" + result["frame"].dump() + "&box=" + text);
   EXPECT_GT(impostor["features"], 0);
   EXPECT_TRUE(eventually([&] { return get("/api/live")["result"]["detections"].empty(); }));

@@ -1,5 +1,6 @@
 import { readFileSync } from "node:fs";
 import { defineConfig, type Plugin } from "vitest/config";
+import { parse } from "yaml";
 
 const kInside = ["preact", "@preact/signals", "@preact/signals-core"];
 
@@ -14,10 +15,24 @@ function licences(): Plugin {
   };
 }
 
+/// The description of the HTTP interface as data: import api from "virtual:openapi".
+function openapi(): Plugin {
+  const name = "virtual:openapi";
+  return {
+    name: "openapi",
+    resolveId: (id) => (id === name ? "\0" + name : undefined),
+    load(id) {
+      if (id !== "\0" + name) return;
+      const json = JSON.stringify(parse(readFileSync("../openapi.yaml", "utf8")));
+      return `export default JSON.parse(${JSON.stringify(json)})`;
+    },
+  };
+}
+
 // File names carry no hash: the server embeds them by name and answers with an ETag.
 export default defineConfig({
   base: "./",
-  plugins: [licences()],
+  plugins: [licences(), openapi()],
   build: {
     target: "es2022",
     modulePreload: false,

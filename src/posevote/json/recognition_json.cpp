@@ -69,6 +69,16 @@ Json to_json(const RecognitionResult& result, const std::string& image) {
           {"detections", std::move(detections)}};
 }
 
+Json to_json(const Explanation& explanation) {
+  const Explanation& e = explanation;
+  Json json{{"object", e.object},    {"found", e.found},     {"stage", e.stage},
+            {"reason", e.reason},    {"option", e.option},   {"scene_features", e.scene_features},
+            {"similar", e.similar},  {"matched", e.matched}, {"largest_bin", e.largest_bin},
+            {"clusters", e.clusters}};
+  if (e.best) json["best"] = to_json(*e.best);
+  return json;
+}
+
 Json error_json(const std::string& image, const std::string& error) {
   return {{"image", image}, {"error", error}};
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "posevote/recognize/explain.hpp"
 #include "posevote/recognize/recognizer.hpp"
 
 namespace posevote {
@@ -17,6 +18,10 @@ using Json = nlohmann::ordered_json;
 /// {"object", "view", "confidence", "probability", "log10_false_alarms", "inliers",
 /// "features_in_area", "homography", "outline", "box", and, when there are any, "alternatives"}.
 [[nodiscard]] Json to_json(const Detection& detection);
+
+/// {"object", "found", "stage", "reason", "option", "scene_features", "similar", "matched",
+/// "largest_bin", "clusters", and, when there was a pose, "best": a detection}.
+[[nodiscard]] Json to_json(const Explanation& explanation);
 
 /// {"image", "error"}: the picture could not be read.
 [[nodiscard]] Json error_json(const std::string& image, const std::string& error);

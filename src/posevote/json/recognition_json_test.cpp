@@ -10,7 +10,7 @@ namespace {
 Detection made_detection() {
   Detection detection;
   detection.object = "ricola";
-  detection.view = "3";
+  detection.view = std::string("3");
   detection.confidence = 0.38;
   detection.probability = 0.5;
   detection.log10_false_alarms = -12.5;
@@ -47,6 +47,23 @@ TEST(RecognitionJson, AlternativesAreThereWhenThereAreAny) {
   EXPECT_FALSE(to_json(detection).contains("alternatives"));
   detection.alternatives = {"emmi", "ovo"};
   EXPECT_EQ(to_json(detection)["alternatives"].dump(), R"(["emmi","ovo"])");
+}
+
+TEST(RecognitionJson, AnExplanationHasItsCountsAndThePoseWhenThereWasOne) {
+  Explanation explanation;
+  explanation.object = "ricola";
+  explanation.stage = "votes";
+  explanation.reason = "the votes are spread";
+  explanation.option = "vote.min_votes";
+  explanation.scene_features = 500;
+  explanation.similar = 40;
+  explanation.matched = 9;
+  EXPECT_EQ(to_line(to_json(explanation)),
+            R"({"object":"ricola","found":false,"stage":"votes","reason":"the votes are spread",)"
+            R"("option":"vote.min_votes","scene_features":500,"similar":40,"matched":9,)"
+            R"("largest_bin":0,"clusters":0})");
+  explanation.best.emplace().inliers = 98;
+  EXPECT_EQ(to_json(explanation)["best"]["inliers"], 98);
 }
 
 TEST(RecognitionJson, AnyTextGivesOneValidLine) {

@@ -126,13 +126,16 @@ void conclude(const Trace& trace, const RecognizeOptions& options, Explanation& 
 }  // namespace
 
 Explanation explain(const Recognizer& recognizer, const cv::Mat& image, const std::string& object) {
-  const auto models = recognizer.models();
-  const int index = index_of(*models, object);
-  const Trace trace = recognizer.trace(image);
+  static_cast<void>(index_of(*recognizer.models(), object));  // before anything is computed
+  return explain(recognizer.trace(image), recognizer.options(), object);
+}
+
+Explanation explain(const Trace& trace, const RecognizeOptions& options,
+                    const std::string& object) {
   Explanation result;
   result.object = object;
-  follow_matches(trace, index, result);
-  conclude(trace, recognizer.options(), result);
+  follow_matches(trace, index_of(*trace.models, object), result);
+  conclude(trace, options, result);
   return result;
 }
 

@@ -36,4 +36,9 @@ struct Explanation {
 [[nodiscard]] Explanation explain(const Recognizer& recognizer, const cv::Mat& image,
                                   const std::string& object);
 
+/// The same from what `Recognizer::trace` gave, for several objects of one picture. `options`: the
+/// recogniser's.
+[[nodiscard]] Explanation explain(const Trace& trace, const RecognizeOptions& options,
+                                  const std::string& object);
+
 }  // namespace posevote

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "posevote/core/error.hpp"
+#include "posevote/recognize/trace.hpp"
 
 namespace posevote {
 namespace {
@@ -108,6 +109,18 @@ TEST_F(Explain, AnObjectOfWhichOnlyAPartLooksRightIsDoubtedForTheRest) {
   EXPECT_THAT(result.stage, testing::AnyOf("object", "place"));
   ASSERT_TRUE(result.best);
   EXPECT_EQ(result.option, "verify.false_alarms_per_1000_images");
+}
+
+TEST_F(Explain, OneTraceExplainsAllObjectsAsSeparateLooksDo) {
+  printed(1).copyTo(scene_(cv::Rect(100, 100, 220, 220)));
+  const Trace trace = recognizer_.trace(scene_);
+  for (const std::string object : {"card", "book"}) {
+    const Explanation from_trace = explain(trace, recognizer_.options(), object);
+    const Explanation alone = explain(recognizer_, scene_, object);
+    EXPECT_EQ(from_trace.stage, alone.stage);
+    EXPECT_EQ(from_trace.reason, alone.reason);
+    EXPECT_EQ(from_trace.matched, alone.matched);
+  }
 }
 
 TEST_F(Explain, AnUnknownNameIsAnErrorThatNamesTheNearest) {

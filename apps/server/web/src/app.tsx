@@ -7,6 +7,7 @@ import { LivePage } from "./live/live_page";
 import { Login } from "./login";
 import { ObjectPage } from "./objects/object_page";
 import { ObjectsPage } from "./objects/objects_page";
+import { ReferencePage } from "./reference/reference_page";
 import { link_to, route, type Route } from "./router";
 import { SettingsPage } from "./settings/settings_page";
 import { TeachPage } from "./teach/teach_page";
@@ -63,7 +64,8 @@ export function App() {
 
 function Page({ page, argument }: Route) {
   useEffect(() => {
-    document.title = `${kPages[page as keyof typeof kPages] ?? "New object"} – posevote studio`;
+    const titles: Record<string, string> = { ...kPages, teach: "New object", api: "HTTP interface" };
+    document.title = `${titles[page] ?? "No such page"} – posevote studio`;
   }, [page]);
   switch (page) {
     case "live":
@@ -74,8 +76,10 @@ function Page({ page, argument }: Route) {
       return argument ? <ObjectPage key={argument} name={argument} /> : <ObjectsPage />;
     case "try":
       return <TryPage />;
+    case "api":
+      return <ReferencePage wanted={argument} />;
     case "settings":
-      return <SettingsPage />;
+      return <SettingsPage wanted={argument} />;
     default:
       return (
         <State icon="?" title="There is no such page">

@@ -1,5 +1,5 @@
 // The operations of openapi.yaml that the page uses.
-import { ask, path_of } from "./client";
+import { ask, ask_picture, path_of } from "./client";
 import type * as t from "./types";
 
 const kThumbnail = 320;
@@ -13,6 +13,12 @@ export const set_source = (source: string) => ask<t.Source>("PUT", ["source"], {
 export const post_frame = (body: Blob) => ask("POST", ["live", "frame"], { body });
 
 export const recognize = (body: Blob) => ask<t.Recognition>("POST", ["recognize"], { body });
+
+export const explain = (body: Blob, signal: AbortSignal) => ask<t.Explanations>("POST", ["explain"], { body, signal });
+export const explain_drawn = (body: Blob, object: string, signal: AbortSignal) =>
+  ask_picture("POST", ["explain"], { query: { object, format: "jpeg" }, body, signal });
+/// A frame in full size: the newest, or that of a result.
+export const get_frame = (frame?: number) => ask_picture("GET", ["frame.jpg"], { query: { frame } });
 
 export const list_impostors = (signal: AbortSignal) =>
   ask<{ impostors: t.Impostor[] }>("GET", ["impostors"], { signal });

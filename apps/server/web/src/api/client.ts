@@ -36,6 +36,11 @@ export async function ask<T = void>(method: string, parts: string[], asked: Aske
   return (is_json ? await response.json() : undefined) as T;
 }
 
+export async function ask_picture(method: string, parts: string[], asked: Asked = {}): Promise<Blob> {
+  const { body, signal } = asked;
+  return (await send(path_of(parts, asked.query), { method, body, signal })).blob();
+}
+
 /// Throws ApiError for every answer that is not a success, or when there is none.
 export async function send(url: string, init: RequestInit = {}): Promise<Response> {
   let response: Response;

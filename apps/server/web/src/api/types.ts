@@ -30,6 +30,7 @@ export interface Detection {
   object: string;
   view: string;
   confidence: number;
+  probability: number;
   inliers: number;
   features_in_area: number;
   outline: Point[];
@@ -45,6 +46,26 @@ export interface Recognition {
   time_ms: Record<"detect" | "match" | "vote" | "verify" | "total", number>;
   counts: Record<"features" | "matched" | "clustered" | "verified", number>;
   detections: Detection[];
+}
+
+export interface Explanation {
+  object: string;
+  found: boolean;
+  stage: "found" | "features" | "similar" | "ratio" | "votes" | "pose" | "chance" | "object" | "place" | "competition";
+  reason: string;
+  option: string;
+  scene_features: number;
+  similar: number;
+  matched: number;
+  largest_bin: number;
+  clusters: number;
+  best?: Detection;
+}
+
+export interface Explanations {
+  width: number;
+  height: number;
+  explanations: Explanation[];
 }
 
 export interface ObjectSummary {

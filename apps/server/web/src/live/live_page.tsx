@@ -1,8 +1,10 @@
 // What the camera sees and what is recognised in it.
 import { useState } from "preact/hooks";
+import { get_frame } from "../api/calls";
 import { live, result } from "../api/events";
 import { link_to } from "../router";
 import { State } from "../ui/state";
+import { WhyNot } from "../why/why_not";
 import { DetectionList } from "./detection_list";
 import { LivePicture, live_size } from "./live_picture";
 import { Overlay } from "./overlay";
@@ -44,6 +46,11 @@ export function LivePage() {
             empty={running ? "Nothing that was taught is in the picture." : "There is no picture now."}
           />
         )}
+        {live.value?.objects ? (
+          <div class="row">
+            <WhyNot picture={() => get_frame(newest?.frame)} />
+          </div>
+        ) : null}
         <SourceChoice />
       </section>
     </div>

@@ -4,7 +4,7 @@ import { earlier_of, glide } from "./smooth";
 
 function found_at(x: number, object = "mug", view = "1"): Detection {
   const outline: [number, number][] = [[x, 0], [x + 10, 0], [x + 10, 10]];
-  return { object, view, confidence: 0.5, inliers: 9, features_in_area: 20, outline, box: [x, 0, 10, 10] };
+  return { object, view, confidence: 0.5, probability: 0.5, inliers: 9, features_in_area: 20, outline, box: [x, 0, 10, 10] };
 }
 
 test("an outline glides from where it was", () => {

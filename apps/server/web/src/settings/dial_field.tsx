@@ -12,7 +12,7 @@ interface Props {
 export function Dial({ setting, value, on_change }: Props) {
   const id = useId();
   return (
-    <section class="card stack tight" aria-label="False alarms">
+    <section id={setting.name} class="card stack tight" aria-label="False alarms">
       <h2>
         <label htmlFor={id}>How careful?</label>
       </h2>

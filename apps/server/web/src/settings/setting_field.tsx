@@ -12,7 +12,7 @@ export function SettingField({ setting, value, on_change }: Props) {
   const id = useId();
   const { fixed, unit, help, name } = setting;
   return (
-    <div class="setting">
+    <div class="setting" id={name}>
       <div>
         <label htmlFor={id}>{title_of(name)}</label>
         <p id={`${id}-help`} class="muted small">

@@ -1,7 +1,8 @@
 // All options of the server, made from what it says of them; the dial of false alarms first.
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { change_settings, get_settings } from "../api/calls";
 import type { Setting, SettingValue } from "../api/types";
+import { link_to } from "../router";
 import { use_loaded } from "../ui/loaded";
 import { Failed, Waiting } from "../ui/state";
 import { attempt, say } from "../ui/toast";
@@ -15,10 +16,12 @@ import "./settings_page.css";
 
 const kGroups: Record<string, string> = { recognize: "Recognition", teach: "Teaching", live: "Camera and stream" };
 
-export function SettingsPage() {
+/// `wanted`: the name of an option to go to.
+export function SettingsPage({ wanted }: { wanted: string }) {
   const { data, error, reload } = use_loaded(get_settings, []);
   const [changed, set_changed] = useState<Record<string, SettingValue>>({});
   const [saving, set_saving] = useState(false);
+  useEffect(() => show_option(wanted), [wanted, !data]);
   if (error && !data)
     return (
       <Failed what="settings" error={error} on_retry={reload} />
@@ -76,6 +79,11 @@ export function SettingsPage() {
       })}
       <Impostors />
       <ThisBrowser />
+      <section class="card stack tight" aria-label="For programs">
+        <h2>For programs</h2>
+        <p class="muted">All that this page does, programs can do, too.</p>
+        <a href={link_to("api")}>The HTTP interface</a>
+      </section>
       {pending > 0 && (
         <div class="settings-save">
           <span>{count(pending, "change")} not in force yet</span>
@@ -89,4 +97,12 @@ export function SettingsPage() {
       )}
     </div>
   );
+}
+
+function show_option(name: string): void {
+  const option = name && document.getElementById(name);
+  if (!option) return;
+  option.closest("details")?.setAttribute("open", "");
+  option.scrollIntoView({ block: "center" });
+  option.querySelector<HTMLElement>("input, select")?.focus({ preventScroll: true });
 }

@@ -8,6 +8,7 @@ import { DropZone } from "../ui/drop_zone";
 import { milliseconds } from "../ui/numbers";
 import { Stage } from "../ui/stage";
 import { say_error } from "../ui/toast";
+import { WhyNot } from "../why/why_not";
 import "./try_page.css";
 
 interface Tried {
@@ -54,6 +55,9 @@ export function TryPage() {
                   on_choose={set_chosen}
                   empty="None of the taught objects was found. Is the object large enough, sharp, and seen from a side that was taught?"
                 />
+                <div class="row">
+                  <WhyNot picture={() => Promise.resolve(tried.file)} />
+                </div>
                 <Steps result={found} />
               </>
             )}

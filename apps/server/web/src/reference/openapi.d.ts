@@ -1,0 +1,4 @@
+declare module "virtual:openapi" {
+  const api: import("./description").Description;
+  export default api;
+}

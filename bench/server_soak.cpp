@@ -2,9 +2,9 @@
 //
 // Starts `posevote serve` on a new database, teaches objects from the demo set, posts frames as a
 // client's camera would, and watches with N clients, every second one frames, the others events.
-// Prints one JSON object: memory at the beginning and the end, frames and results a second, the
-// time from posting a frame until clients have it and its result (percentiles, ms), frames that
-// were left out.
+// Prints one JSON object: memory at the beginning and after each twelfth of the time, frames and
+// results a second, the time from posting a frame until clients have it and its result
+// (percentiles, ms), frames that were left out.
 #include <fcntl.h>
 #include <httplib.h>
 #include <signal.h>
@@ -215,9 +215,10 @@ Json run(const Options& options) {
       });
     Json memory = Json::array();
     const auto begin = Clock::now();
-    const double step = options.seconds / 10;
-    for (int i = 1; i <= 10; ++i) {
-      std::this_thread::sleep_for(std::chrono::duration<double>(i * step - seconds_since(begin)));
+    constexpr int kSteps = 12;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double due = i * options.seconds / kSteps;
+      std::this_thread::sleep_for(std::chrono::duration<double>(due - seconds_since(begin)));
       memory.push_back(std::round(server.metric("process_resident_memory_bytes") / 1e5) / 10);
     }
     const double frames_total = server.metric("posevote_frames_total");

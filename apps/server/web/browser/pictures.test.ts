@@ -1,7 +1,7 @@
 import { join } from "node:path";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import type { Page } from "playwright-core";
-import { demo, Studio } from "./studio";
+import { demo, picture, Studio } from "./studio";
 
 let studio: Studio;
 let page: Page;
@@ -78,6 +78,21 @@ test("pictures are tried: what is found, what the steps left, and what is wrong"
   expect(await impostors()).toBe(before + 1);
   await page.getByRole("button", { name: "Undo" }).click();
   await expect.poll(impostors).toBe(before);
+});
+
+test("a picture is dropped on the page", async () => {
+  await page.goto(`${studio.address}/#/try`);
+  const dataTransfer = await page.evaluateHandle((base64) => {
+    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([bytes], "poster.jpg", { type: "image/jpeg" }));
+    return transfer;
+  }, Buffer.from(picture("train/poster/cover.jpg")).toString("base64"));
+  await page.dispatchEvent(".drop-zone", "dragover", { dataTransfer });
+  await page.locator(".drop-zone.over").waitFor();
+  await page.dispatchEvent(".drop-zone", "drop", { dataTransfer });
+  await page.locator(".detection", { hasText: "poster" }).waitFor();
+  expect(await page.locator(".drop-zone.over").count()).toBe(0);
 });
 
 test("a file that is no picture is refused with its name", async () => {

@@ -1,4 +1,4 @@
-import { mkdtempSync, writeFileSync } from "node:fs";
+import { cpSync, mkdtempSync, renameSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { expect, test } from "vitest";
@@ -51,6 +51,24 @@ test("a folder of pictures is a camera, and its objects are found", async () => 
   await studio.stop();
 });
 
+test("a camera that is lost is said, with the reason, and comes back by itself", async () => {
+  const camera = join(mkdtempSync(join(tmpdir(), "posevote-camera-")), "pictures");
+  cpSync(join(demo, "test"), camera, { recursive: true });
+  const studio = await Studio.start({ arguments: ["--camera", camera] });
+  await studio.teach("poster", ["cover"]);
+  const page = await studio.open("#/live");
+  await expect.poll(() => page.locator(".stage-message").count()).toBe(0);
+  renameSync(camera, `${camera}-away`);
+  const message = page.locator(".stage-message", { hasText: "Camera lost" });
+  await message.waitFor();
+  expect(await message.textContent()).toContain("pictures");
+  await page.getByText("There is no picture now").waitFor();
+  await studio.shoot(page, "camera-lost");
+  renameSync(`${camera}-away`, camera);
+  await expect.poll(() => page.locator(".stage-message").count()).toBe(0);
+  await studio.stop();
+});
+
 test("a server that went away is said, and the picture keeps its place", async () => {
   const studio = await Studio.start({ arguments: ["--camera", join(demo, "test")] });
   const page = await studio.open("#/live");
@@ -60,6 +78,8 @@ test("a server that went away is said, and the picture keeps its place", async (
   await page.getByText("The server does not answer").waitFor();
   expect(await page.locator(".stage").boundingBox()).toEqual(before);
   await studio.shoot(page, "server-gone");
+  await page.goto(`${studio.address}/#/objects/mug`).catch(() => undefined); // the page is still there
+  await page.getByText("The object could not be loaded").waitFor();
   await studio.stop();
 });
 

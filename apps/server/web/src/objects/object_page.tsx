@@ -1,12 +1,13 @@
 // One object: its views, and what can be done with it.
 import { useState } from "preact/hooks";
 import { delete_object, delete_view, export_link, get_object, view_thumbnail } from "../api/calls";
+import { ApiError } from "../api/client";
 import { objects_version } from "../api/events";
 import type { ViewSummary } from "../api/types";
 import { go_to, link_to } from "../router";
 import { use_loaded } from "../ui/loaded";
 import { count, degrees } from "../ui/numbers";
-import { State, Waiting } from "../ui/state";
+import { Failed, State, Waiting } from "../ui/state";
 import { attempt } from "../ui/toast";
 import { MergeDialog } from "./merge_dialog";
 import { RenameDialog } from "./rename_dialog";
@@ -14,10 +15,10 @@ import { do_with_undo } from "./undo";
 import { ViewDialog } from "./view_dialog";
 
 export function ObjectPage({ name }: { name: string }) {
-  const { data, error } = use_loaded((signal) => get_object(name, signal), [name, objects_version.value]);
+  const { data, error, reload } = use_loaded((signal) => get_object(name, signal), [name, objects_version.value]);
   const [asking, set_asking] = useState<"rename" | "merge" | null>(null);
   const [view, set_view] = useState<ViewSummary | null>(null);
-  if (error)
+  if (error instanceof ApiError && error.status === 404)
     return (
       <State icon="◇" title={`There is no “${name}”`} alert>
         <p>{error.message}</p>
@@ -26,6 +27,7 @@ export function ObjectPage({ name }: { name: string }) {
         </a>
       </State>
     );
+  if (error && !data) return <Failed what="object" error={error} on_retry={reload} />;
   if (!data) return <Waiting what={name} />;
 
   const remove = async (): Promise<void> => {

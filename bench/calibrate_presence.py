@@ -13,7 +13,7 @@ import sys
 import numpy as np
 
 NAMES = ("digits", "confidence", "coverage", "distortion", "structure", "structure_near_matches",
-         "colour_difference", "visible")
+         "colour_difference", "visible", "rim")
 RIDGE_OBJECT, RIDGE_PLACE = 1.0, 3.0
 
 
@@ -24,9 +24,10 @@ def read(path):
         if line["verdict"] not in ("right", "false"):
             continue
         values = [line["measured"][name] for name in NAMES]
-        digits, confidence, coverage, distortion, structure, near, colour, visible = values
+        digits, confidence, coverage, distortion, structure, near, colour, visible, rim = values
         inputs.append([np.log10(1 + max(0, digits)), np.log(confidence + 0.01), np.sqrt(coverage),
-                       structure, near, colour, visible, distortion * (1 - coverage)])
+                       structure, near, colour, visible, rim,
+                       distortion * (1 - coverage)])
         right.append(line["verdict"] == "right")
         misplaced.append(line.get("truth") == line["object"] and not right[-1]
                          and line["iou"] > 0.15)
@@ -59,6 +60,17 @@ def probability(models, inputs):
     return np.prod([1 / (1 + np.exp(-(m[0] + inputs @ m[1:]))) for m in models], axis=0)
 
 
+def fit_dial(left_out, right, pictures):
+    """False detections per 1000 pictures at even odds, and how much faster than they the odds grow."""
+    least = np.arange(0.5, 0.98, 0.01)
+    false = np.array([(left_out[~right] >= p).sum() for p in least])
+    log_odds, weight = np.log(least / (1 - least)), np.sqrt(false)
+    usable = false > 0
+    slope, log_even = np.polyfit(log_odds[usable], np.log(1000 * false[usable] / pictures), 1,
+                                 w=weight[usable])
+    return np.exp(log_even), -1 / slope
+
+
 def main(path, pictures):
     inputs, right, misplaced, sets = read(path)
     everything = np.ones(len(right), bool)
@@ -71,6 +83,8 @@ def main(path, pictures):
     for name, model in zip(("kObject", "kPlace"), models):
         weights = ", ".join(f"{w:.3f}" for w in model[1:])
         print(f"constexpr Model {name}{{{model[0]:.2f}, {{{weights}}}}};")
+    even, steepness = fit_dial(left_out, right, pictures)
+    print(f"constexpr Dial kDial{{{even:.0f}, {steepness:.2f}}};")
     print("\nreliability, left out: probability, claims, share that is right")
     edges = (0, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.01)
     for low, high in zip(edges, edges[1:]):

@@ -74,6 +74,7 @@ ordered_json measured_json(const PresenceEvidence& measured) {
           {"structure", number(agreement.structure)},
           {"structure_near_matches", number(agreement.structure_near_matches)},
           {"colour_difference", number(agreement.colour_difference)},
+          {"rim", number(agreement.rim)},
           {"visible", number(agreement.visible)}};
 }
 

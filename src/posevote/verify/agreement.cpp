@@ -52,9 +52,8 @@ struct Mean {
   [[nodiscard]] double value() const { return count > 0 ? sum / count : 0; }
 };
 
-void compare_structure(const cv::Mat& view, const cv::Mat& scene, const cv::Mat& mask,
+void compare_structure(const Gradient& a, const Gradient& b, const cv::Mat& mask,
                        const cv::Mat& near_matches, Agreement& result) {
-  const Gradient a(view), b(scene);
   Mean all, matched;
   for (int y = 0; y < mask.rows; ++y)
     for (int x = 0; x < mask.cols; ++x) {
@@ -69,6 +68,45 @@ void compare_structure(const cv::Mat& view, const cv::Mat& scene, const cv::Mat&
     }
   result.structure = all.value();
   result.structure_near_matches = matched.value();
+}
+
+/// Px of the patch along the rim's outer normal: about what a good pose is wrong by.
+constexpr int kRimFrom = -3, kRimTo = 2;
+
+/// Median of right detections, for rim outside the picture.
+constexpr double kUsualRim = 0.55;
+
+/// Where its silhouette ends, an object stands out against what is behind it. `inside`: as of
+/// `ScenePyramid::warp`.
+double rim_of(const Gradient& scene, const cv::Mat& silhouette, const cv::Mat& inside) {
+  cv::Mat inner, seen, soft, normal_x, normal_y;
+  const cv::Mat cross = cv::getStructuringElement(cv::MORPH_CROSS, {3, 3});
+  cv::erode(silhouette, inner, cross);
+  cv::erode(inside, seen, cross);
+  const cv::Mat whole = silhouette & ~inner, rim = whole & seen;
+  silhouette.convertTo(soft, CV_32F, -1);
+  cv::GaussianBlur(soft, soft, {}, 1);
+  cv::Sobel(soft, normal_x, CV_32F, 1, 0);
+  cv::Sobel(soft, normal_y, CV_32F, 0, 1);
+  const cv::Rect all({}, silhouette.size());
+  std::vector<cv::Point> places;
+  cv::findNonZero(rim, places);
+  Mean mean;
+  for (const cv::Point place : places) {
+    const cv::Point2d slope(normal_x.at<float>(place), normal_y.at<float>(place));
+    const cv::Point2d normal = slope / std::max(1e-9, cv::norm(slope));
+    double clearest = 0;
+    for (int k = kRimFrom; k <= kRimTo; ++k) {
+      const cv::Point at(cv::Point2d(place) + k * normal);
+      if (!all.contains(at)) continue;
+      const cv::Point2d edge(scene.x.at<float>(at), scene.y.at<float>(at));
+      const double flat = kFlat;
+      clearest = std::max(clearest, std::abs(edge.dot(normal)) / (cv::norm(edge) + flat));
+    }
+    mean.add(clearest);
+  }
+  const double share = static_cast<double>(places.size()) / std::max(1, cv::countNonZero(whole));
+  return share * mean.value() + (1 - share) * kUsualRim;
 }
 
 /// No pixel has a colour: a grey camera or a grey picture.
@@ -128,6 +166,15 @@ Patch fitting(const Patch& patch, double scene_step) {
   return result;
 }
 
+/// The patch with surroundings in which the rim can be looked for.
+Patch with_surroundings(Patch patch) {
+  constexpr int m = kRimTo + 2;
+  cv::copyMakeBorder(patch.pixels, patch.pixels, m, m, m, m, cv::BORDER_REPLICATE);
+  cv::copyMakeBorder(patch.mask, patch.mask, m, m, m, m, cv::BORDER_CONSTANT);
+  patch.corner -= cv::Point2d(m, m) * patch.scale;
+  return patch;
+}
+
 }  // namespace
 
 ScenePyramid::ScenePyramid(const cv::Mat& image) : levels_{to_bgr8(image)} {
@@ -161,7 +208,7 @@ Agreement measure_agreement(const Patch& patch, const cv::Matx33d& scene_from_vi
       0.5F * (cv::Point2f(patch.corner) +
               transform_point(patch.view_from_patch(), cv::Point2f(cv::Point(patch.mask.size()))));
   const double step = std::sqrt(std::abs(cv::determinant(local_jacobian(scene_from_view, centre))));
-  const Patch view = fitting(patch, step);
+  const Patch view = with_surroundings(fitting(patch, step));
   cv::Mat pixels, inside, inner;
   scene.warp(scene_from_view * view.view_from_patch(), step * view.scale, view.pixels.size(),
              pixels, inside);
@@ -170,7 +217,9 @@ Agreement measure_agreement(const Patch& patch, const cv::Matx33d& scene_from_vi
   if (seen == 0) return result;
   result.visible = static_cast<double>(seen) / area;
   cv::erode(mask, inner, cv::Mat());
-  compare_structure(view.pixels, pixels, inner, hull_mask(matched, view), result);
+  const Gradient of_scene(pixels);
+  compare_structure(Gradient(view.pixels), of_scene, inner, hull_mask(matched, view), result);
+  result.rim = rim_of(of_scene, view.mask, inside);
   result.colour_difference = scene.has_colour() && !is_grey(patch.pixels)
                                  ? colour_difference(view.pixels, pixels, mask)
                                  : kUsualColourDifference;

@@ -35,6 +35,7 @@ struct Agreement {
   double structure_near_matches = 0;  ///< the same inside the hull of the matched features
   double colour_difference = 0;  ///< mean sum of differences of the shares of B, G and R, 0 ... 2;
                                  ///< where view or scene are grey a usual value
+  double rim = 0;                ///< mean of the clearest edge along the silhouette's rim, 0 ... 1
   double visible = 0;            ///< share of the object inside the picture
 };
 

@@ -50,6 +50,20 @@ TEST(MeasureAgreement, IsLowForAnotherPictureAndAShiftedPose) {
   EXPECT_LT(measure_agreement(whole(blobs(1)), shifted, kCorners, scene).structure, 0.3);
 }
 
+TEST(MeasureAgreement, FindsTheRimOnlyWhereTheObjectEnds) {
+  const cv::Matx33d pose(1, 0, 200, 0, 1, 100, 0, 0, 1), shifted(1, 0, 240, 0, 1, 130, 0, 0, 1),
+      small(0.6, 0, 230, 0, 0.6, 130, 0, 0, 1), cut(1, 0, -40, 0, 1, 100, 0, 0, 1);
+  const auto rim_at = [](const cv::Matx33d& at, const cv::Mat& scene) {
+    return measure_agreement(whole(blobs(1)), at, kCorners, ScenePyramid(scene)).rim;
+  };
+  const cv::Mat scene = placed(blobs(1) * 0.3, pose);
+  EXPECT_GT(rim_at(pose, scene), 0.6);
+  EXPECT_GT(rim_at(cut, placed(blobs(1) * 0.3, cut)), 0.6);
+  EXPECT_NEAR(rim_at(cv::Matx33d::eye(), blobs(1)), 0.55, 0.05) << "nothing of the rim is seen";
+  EXPECT_LT(rim_at(shifted, scene), 0.7 * rim_at(pose, scene));
+  EXPECT_LT(rim_at(small, scene), 0.7 * rim_at(pose, scene));
+}
+
 TEST(MeasureAgreement, DoesNotMindTheExposure) {
   const cv::Matx33d pose(1, 0, 200, 0, 1, 100, 0, 0, 1);
   const auto agreement = measure_agreement(whole(blobs(1)), pose, kCorners,
@@ -97,7 +111,7 @@ TEST(MeasureAgreement, TakesGreyDeepAndTinyScenes) {
 }
 
 PresenceEvidence convincing() {
-  return {200, 0.3, 0.7, 0.05, {0.8, 0.85, 0.05, 1}};
+  return {200, 0.3, 0.7, 0.05, {0.8, 0.85, 0.05, 0.7, 1}};
 }
 
 TEST(RatePresence, IsSureOfAnObjectThatAgreesInEveryWay) {
@@ -105,17 +119,19 @@ TEST(RatePresence, IsSureOfAnObjectThatAgreesInEveryWay) {
 }
 
 TEST(RatePresence, DoubtsASharedLogoOnAnotherThing) {
-  const PresenceEvidence logo{25, 0.03, 0.05, 0.05, {0.15, 0.8, 0.25, 1}};
+  const PresenceEvidence logo{25, 0.03, 0.05, 0.05, {0.15, 0.8, 0.25, 0.4, 1}};
   EXPECT_LT(rate_presence(logo).object, 0.5);
 }
 
 TEST(RatePresence, FallsWithEveryKindOfEvidence) {
   const double sure = rate_presence(convincing()).probability();
   auto fewer_digits = convincing(), other_colour = convincing(), other_picture = convincing();
+  auto no_rim = convincing();
   fewer_digits.digits = 2;
+  no_rim.agreement.rim = 0.2;
   other_colour.agreement.colour_difference = 0.6;
   other_picture.agreement.structure = other_picture.agreement.structure_near_matches = 0.05;
-  for (const auto& evidence : {fewer_digits, other_colour, other_picture})
+  for (const auto& evidence : {fewer_digits, other_colour, other_picture, no_rim})
     EXPECT_LT(rate_presence(evidence).probability(), sure);
 }
 

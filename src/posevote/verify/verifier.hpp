@@ -13,7 +13,7 @@
 namespace posevote {
 
 struct VerifyOptions {
-  double false_alarms_per_1000_images = 10;  ///< the dial
+  double false_alarms_per_1000_images = 15;  ///< the dial
   int min_inliers = 5;
   EvidenceOptions evidence;
   PoseFitOptions pose;

@@ -61,6 +61,19 @@ TEST_F(CameraTest, ADamagedPictureIsLeftOutAndAFolderOfThemIsAnError) {
   EXPECT_THROW(static_cast<void>(source->next()), Error);
 }
 
+TEST_F(CameraTest, AFolderThatIsGoneIsSaidToBeGone) {
+  show(1, 50);
+  PostedFrames posted;
+  const auto source = open_source(folder_, {100, 25}, posted);
+  fs::remove_all(folder_);
+  try {
+    static_cast<void>(source->next());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), "folder '" + folder_ + "' is not there any more");
+  }
+}
+
 TEST_F(CameraTest, NamesOfSources) {
   EXPECT_EQ(parse_source("0").name, "camera:0");
   EXPECT_EQ(parse_source("client").name, "client");

@@ -48,6 +48,8 @@ class FolderSource : public FrameSource {
         reason = error.what();
       }
     }
+    if (!std::filesystem::is_directory(folder_))
+      throw Error(ErrorCode::not_found, "folder '" + folder_ + "' is not there any more");
     throw Error(ErrorCode::io, "no picture of folder '" + folder_ + "' can be read: " + reason);
   }
 

@@ -2,6 +2,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { connected, live } from "../api/events";
+import { sentence } from "../ui/numbers";
 import { Stage } from "../ui/stage";
 import { while_shown } from "../ui/while_shown";
 import { show_frames, type OnFrame } from "./frames";
@@ -45,8 +46,8 @@ function Interruption() {
   const [title, text] = !connected.value
     ? ["The server does not answer", "The page goes on by itself as soon as it is back."]
     : state?.state === "lost"
-      ? ["Camera lost", state.message || "It is tried again all the time."]
-      : ["Waiting for the first picture", state?.message ?? ""];
+      ? ["Camera lost", state.message ? sentence(state.message) : "It is tried again all the time."]
+      : ["Waiting for the first picture", state?.message ? sentence(state.message) : ""];
   return (
     <div class="stage-message" role="status">
       <h2>{title}</h2>

@@ -8,6 +8,7 @@
 
 #include "posevote/core/error.hpp"
 #include "posevote/core/stopwatch.hpp"
+#include "posevote/match/look_alikes.hpp"
 #include "posevote/recognize/compete.hpp"
 #include "posevote/recognize/trace.hpp"
 
@@ -68,6 +69,8 @@ Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
   detection.outline = transform_polygon(hypothesis.scene_from_view, entry.view->outline);
   const cv::Rect2f box = cv::boundingRect(detection.outline);
   detection.box = box;
+  for (const int other : hypothesis.alternatives)
+    detection.alternatives.push_back(scene.models.objects()[static_cast<std::size_t>(other)].name);
   for (const Match& match : hypothesis.evidence.inliers) {
     const Keypoint& v = entry.view->features.keypoints[static_cast<std::size_t>(match.feature)];
     const Keypoint& s = scene.grid.features().keypoints[static_cast<std::size_t>(match.scene)];
@@ -135,6 +138,7 @@ struct Recognizer::State {
   struct Snapshot {
     std::shared_ptr<const ModelSet> models;
     std::shared_ptr<const Index> index;
+    std::vector<char> look_alikes;  ///< see Neighborhood
   };
 
   RecognizeOptions options;
@@ -153,7 +157,8 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
   Stopwatch watch;
 
   const ModelSet& models = *now.models;
-  const Neighborhood neighborhood(now.index->search(scene, options.match.neighbors), models);
+  const Neighborhood neighborhood(now.index->search(scene, options.match.neighbors), models,
+                                  now.look_alikes);
   const auto matches = match_features(neighborhood, options.match);
   result.counts.matched = count_distinct(matches, [](const Match& m) { return m.scene; });
   result.time_ms.match = watch.lap();
@@ -231,8 +236,10 @@ void Recognizer::set_models(std::shared_ptr<const ModelSet> models) {
                                                  "'; choose the same kind or rebuild them");
   const auto before = state_->snapshot.load();
   auto index = make_index(models, state_->options.index, before ? before->index.get() : nullptr);
+  std::vector<char> look_alikes;  // the paper knows none
+  if (state_->options.rule != "paper") look_alikes = find_look_alikes(*models, *index);
   state_->snapshot.store(std::make_shared<const State::Snapshot>(
-      State::Snapshot{std::move(models), std::move(index)}));
+      State::Snapshot{std::move(models), std::move(index), std::move(look_alikes)}));
 }
 
 std::shared_ptr<const ModelSet> Recognizer::models() const {

@@ -126,6 +126,38 @@ TEST(Recognizer, DoesNotTakeTheMirrorPictureForTheObject) {
   EXPECT_TRUE(recognizer.recognize(mirrored).detections.empty());
 }
 
+/// Two flavours: one print but for a field.
+cv::Mat flavour(const cv::Scalar& colour) {
+  cv::Mat pack = triangles();
+  cv::rectangle(pack, {90, 90, 70, 50}, colour, cv::FILLED);
+  return pack;
+}
+
+TEST(Recognizer, ThePartInWhichLookAlikesDifferDecides) {
+  const cv::Mat mint = flavour({90, 200, 80}), cherry = flavour({60, 40, 210});
+  const Recognizer recognizer(
+      models_of({{"mint", {whole_picture(mint)}}, {"cherry", {whole_picture(cherry)}}}),
+      options_of());
+  for (const auto& [name, pack] : {std::pair{"mint", mint}, {"cherry", cherry}}) {
+    cv::Mat scene(480, 640, CV_8UC3, cv::Scalar(120, 125, 130));
+    pack.copyTo(scene(cv::Rect(150, 100, pack.cols, pack.rows)));
+    const auto result = recognizer.recognize(scene);
+    ASSERT_EQ(result.detections.size(), 1U) << name;
+    EXPECT_EQ(result.detections[0].object, name);
+    EXPECT_TRUE(result.detections[0].alternatives.empty()) << name;
+  }
+}
+
+TEST(Recognizer, OneThingTaughtUnderTwoNamesIsReportedWithBoth) {
+  const Recognizer recognizer(
+      models_of({{"cup", {whole_picture(poster())}}, {"mug", {whole_picture(poster())}}}),
+      options_of());
+  const auto result = recognizer.recognize(scene_with({turned(10, 0.9, {400, 320})}));
+  ASSERT_EQ(result.detections.size(), 1U);
+  ASSERT_EQ(result.detections[0].alternatives.size(), 1U);
+  EXPECT_NE(result.detections[0].object, result.detections[0].alternatives[0]);
+}
+
 TEST(Recognizer, ReportsEachOfTwoCopiesOnce) {
   const Recognizer recognizer(poster_model(), options_of());
   const auto left = turned(0, 0.9, {200, 320}), right = turned(15, 0.9, {560, 320});

@@ -39,6 +39,7 @@ struct Hypothesis {
   double log10_false_alarms = 0;  ///< per image, with the number of poses and views tried
   PresenceEvidence measured;
   Presence presence;
+  std::vector<int> alternatives;  ///< other objects that the scene cannot tell from it
   HypothesisStage stage = HypothesisStage::pose;
   std::string rejected;  ///< "" or why the cluster is no object: plain words
 };

@@ -1,4 +1,5 @@
 // posevote teach: pictures of an object become its views.
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "posevote/store/object_name.hpp"
 #include "posevote/teach/teacher.hpp"
 #include "progress.hpp"
+#include "quality_cards.hpp"
 #include "settings.hpp"
 
 namespace posevote::cli {
@@ -19,7 +21,7 @@ struct TeachArguments {
   std::string name, background, roi, features, database;
   std::vector<std::string> images, masks, settings;
   std::vector<double> yaws;
-  bool whole = false;
+  bool whole = false, brief = false;
 };
 
 /// What all pictures of one call have in common.
@@ -107,6 +109,17 @@ void print(const std::string& name, const TaughtView& taught, const AddResult& r
             << " % of the picture\n";
 }
 
+/// How well the new views will be found, and what they could be mixed up with.
+void print_cards(const std::string& name, const std::vector<std::shared_ptr<const View>>& views,
+                 const ObjectStore& store, const FeatureOptions& features) {
+  const auto models = store.load();
+  const auto object = std::ranges::find(models->objects(), name, &ObjectModel::name);
+  QualityOptions options;
+  options.feature = features;
+  print_quality(views, object->views, options, std::cout);
+  print_resemblances(name, views, *models, features, std::cout);
+}
+
 void run(const TeachArguments& arguments, CommandContext& context) {
   check_counts(arguments);
   check_object_name(arguments.name);
@@ -122,15 +135,20 @@ void run(const TeachArguments& arguments, CommandContext& context) {
   lesson.options = options;
 
   ProgressBar progress("teaching " + arguments.name, arguments.images.size());
+  std::vector<std::shared_ptr<const View>> views;
   for (std::size_t i = 0; i < arguments.images.size(); ++i) {
     try {
-      const TaughtView taught = make_view(arguments, i, lesson);
+      TaughtView taught = make_view(arguments, i, lesson);
       if (!store) store = open_database(arguments.database, Access::create);
       const AddResult result =
           store->add_view(arguments.name, taught, record_features(options.feature));
       progress.clear();
       print(arguments.name, taught, result);
       std::cout.flush();
+      if (result.added && !arguments.brief) {
+        taught.view.id = result.id;
+        views.push_back(std::make_shared<View>(std::move(taught.view)));
+      }
     } catch (const Error& error) {
       const bool of_the_picture = error.code() == ErrorCode::unreadable_image ||
                                   error.code() == ErrorCode::unusable_view ||
@@ -142,6 +160,8 @@ void run(const TeachArguments& arguments, CommandContext& context) {
     }
     progress.advance();
   }
+  progress.clear();
+  if (!views.empty()) print_cards(arguments.name, views, *store, options.feature);
 }
 
 }  // namespace
@@ -178,6 +198,8 @@ void add_teach(CLI::App& app, CommandContext& context) {
       if (one != other) one->excludes(other);
   command->add_option("--yaw", a.yaws, "Turn of the object about the vertical axis, for each IMAGE")
       ->type_name("DEG");
+  command->add_flag("--brief", a.brief,
+                    "Do not rate the views: how well they will be found, what they look like");
   add_features(*command, a.features);
   add_settings(*command, a.settings);
   add_database(*command, a.database);

@@ -73,6 +73,19 @@ TEST_F(Commands, TeachingAgainAddsNothingTwice) {
   EXPECT_EQ(run({"objects", "show", "poster", "--json"}).lines().size(), 1U);
 }
 
+TEST_F(Commands, TeachingRatesTheViewsAndNamesWhatLooksAlike) {
+  const auto teach = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"teach", name, demo("train/" + name + "/y000.jpg"),
+                                          "--background",
+                                          demo("train/" + name + "/background.jpg")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments).out;
+  };
+  EXPECT_THAT(teach("tea-mint", {}), testing::AllOf(HasSubstr("found from"), HasSubstr(" px")));
+  EXPECT_THAT(teach("tea-cherry", {}), HasSubstr("tea-cherry looks like tea-mint: "));
+  EXPECT_THAT(teach("mug", {"--brief"}), Not(HasSubstr("found from")));
+}
+
 TEST_F(Commands, EveryKindOfPixelIsRecognised) {
   teach_poster();
   cv::Mat grey, bgra, deep;

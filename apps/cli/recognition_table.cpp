@@ -30,8 +30,7 @@ std::string name_of(const Detection& detection) {
   return names;
 }
 
-std::string place_of(const Detection& detection) {
-  const cv::Rect2d& box = detection.box;
+std::string place_of(const cv::Rect2f& box) {
   return whole(box.x) + ", " + whole(box.y) + ", " + whole(box.width) + " x " + whole(box.height);
 }
 
@@ -60,7 +59,11 @@ std::string picture_table(const std::string& path, const RecognitionResult& resu
   found.header = {"object", "confidence", "inliers", "where (x, y, size)", "view"};
   for (const Detection& detection : result.detections)
     found.rows.push_back({name_of(detection), percent(detection.confidence, 0),
-                          std::to_string(detection.inliers), place_of(detection), detection.view});
+                          std::to_string(detection.inliers), place_of(detection.box),
+                          detection.view});
+  for (const UnknownRegion& region : result.unknown)
+    found.rows.push_back(
+        {"(unknown)", "", std::to_string(region.features) + " features", place_of(region.box), ""});
   Table time;
   time.header = {"step", "time", "features"};
   for (const Step& step : steps)
@@ -79,7 +82,7 @@ std::string frame_line(std::int64_t number, double time_s, const RecognitionResu
   if (result.detections.empty()) line += " nothing";
   for (const Detection& detection : result.detections)
     line += "  " + name_of(detection) + " " + percent(detection.confidence, 0) + " at " +
-            place_of(detection) + ";";
+            place_of(detection.box) + ";";
   return line + "\n";
 }
 

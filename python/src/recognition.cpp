@@ -155,6 +155,17 @@ py::list detections_of(const SharedResult& result) {
   return list;
 }
 
+/// [((x, y, width, height), features), ...]
+py::list unknown_of(const RecognitionResult& r) {
+  py::list list;
+  for (const UnknownRegion& region : r.unknown) {
+    const cv::Rect2f& box = region.box;
+    list.append(
+        py::make_tuple(py::make_tuple(box.x, box.y, box.width, box.height), region.features));
+  }
+  return list;
+}
+
 py::tuple result_state(const RecognitionResult& r) {
   py::list detections;
   for (const Detection& d : r.detections) detections.append(detection_state(d));
@@ -162,7 +173,8 @@ py::tuple result_state(const RecognitionResult& r) {
       r.image_size.width, r.image_size.height, detections,
       std::vector<double>{r.time_ms.detect, r.time_ms.match, r.time_ms.vote, r.time_ms.verify,
                           r.time_ms.total},
-      std::vector<int>{r.counts.features, r.counts.matched, r.counts.clustered, r.counts.verified});
+      std::vector<int>{r.counts.features, r.counts.matched, r.counts.clustered, r.counts.verified},
+      unknown_of(r));
 }
 
 SharedResult result_from(const py::tuple& state) {
@@ -174,6 +186,10 @@ SharedResult result_from(const py::tuple& state) {
   r->time_ms = {t.at(0), t.at(1), t.at(2), t.at(3), t.at(4)};
   const auto c = state[4].cast<std::vector<int>>();
   r->counts = {c.at(0), c.at(1), c.at(2), c.at(3)};
+  for (const auto& region : state[5].cast<py::list>()) {
+    const auto [box, features] = region.cast<std::pair<std::array<float, 4>, int>>();
+    r->unknown.push_back({{box[0], box[1], box[2], box[3]}, features});
+  }
   return r;
 }
 
@@ -189,6 +205,9 @@ void bind_result(py::module_& module) {
           "height", [](const RecognitionResult& r) { return r.image_size.height; },
           "Of the picture, px.")
       .def_property_readonly("detections", &detections_of, "List of Detection, best first.")
+      .def_property_readonly("unknown", &unknown_of,
+                             "Textured parts that no object explains, with the option `unknown`:\n"
+                             "a list of ((x, y, width, height), features), most features first.")
       .def_readonly("time_ms", &RecognitionResult::time_ms, "StageTimes, ms.")
       .def_readonly("counts", &RecognitionResult::counts, "StageCounts.")
       .def("__len__", [](const RecognitionResult& r) { return r.detections.size(); })

@@ -120,6 +120,15 @@ TEST_F(Commands, ExifRotatedPicturesAreSeenUpright) {
   EXPECT_NEAR(homography[1][0].get<double>(), 0, 0.05);
 }
 
+TEST_F(Commands, WhatNoObjectExplainsIsReportedOnRequest) {
+  teach_poster();
+  const std::string scene = demo("test/kitchen.jpg");
+  EXPECT_THAT(run({"recognize", scene}).out, Not(HasSubstr("(unknown)")));
+  EXPECT_THAT(run({"recognize", scene, "--set", "unknown=true"}).out, HasSubstr("(unknown)"));
+  EXPECT_THAT(run({"recognize", scene, "--set", "unknown=true", "--json"}).out,
+              HasSubstr(R"("unknown":[{"box":)"));
+}
+
 TEST_F(Commands, FoldersGiveALineForEachPicture) {
   teach_poster();
   fs::create_directory(path("scenes"));

@@ -4,6 +4,7 @@
 #include <rclcpp_components/register_node_macro.hpp>
 
 #include "logic/fill_message.hpp"
+#include "logic/report_status.hpp"
 #include "posevote/core/error.hpp"
 #include "posevote/render/annotate.hpp"
 #include "ros2/convert.hpp"
@@ -187,19 +188,7 @@ void Node::report_recognition(diagnostic_updater::DiagnosticStatusWrapper& statu
   }
   const std::lock_guard lock(health_mutex_);
   const logic::HealthReport report = health_.report(now().seconds());
-  if (!report.last_problem.empty())
-    status.summary(Status::WARN, report.last_problem);
-  else if (report.worst_latency_ms > recognition_->options().slow_ms)
-    status.summary(Status::WARN, "results come late");
-  else
-    status.summary(Status::OK, is_listened_to() ? "recognising" : "nobody listens");
-  status.add("rate (Hz)", report.rate_hz);
-  status.add("mean time (ms)", report.mean_time_ms);
-  status.add("mean latency (ms)", report.mean_latency_ms);
-  status.add("worst latency (ms)", report.worst_latency_ms);
-  status.add("pictures", report.pictures);
-  status.add("dropped for newer ones", report.dropped);
-  status.add("refused", report.refused);
+  logic::report_health(status, report, recognition_->options().slow_ms, is_listened_to());
 }
 
 void Node::report_database(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -208,15 +197,7 @@ void Node::report_database(diagnostic_updater::DiagnosticStatusWrapper& status) 
     return;
   }
   try {
-    const logic::DatabaseState state = recognition_->database();
-    if (state.objects.empty())
-      status.summary(Status::WARN, "no objects are taught yet");
-    else
-      status.summary(Status::OK, std::to_string(state.objects.size()) + " objects");
-    status.add("location", state.location);
-    status.add("version", state.version);
-    status.add("features", state.features);
-    status.add("read only", state.read_only);
+    logic::report_database(status, recognition_->database());
   } catch (const Error& error) {
     status.summary(Status::ERROR, error.what());
   }

@@ -33,13 +33,16 @@ Json rows(const cv::Matx33d& matrix) {
   return all;
 }
 
+Json box_json(const cv::Rect2f& box) {
+  return {pixel(box.x), pixel(box.y), pixel(box.width), pixel(box.height)};
+}
+
 }  // namespace
 
 Json to_json(const Detection& detection) {
   Json outline = Json::array();
   for (const cv::Point2f& point : detection.outline)
     outline.push_back({pixel(point.x), pixel(point.y)});
-  const cv::Rect2d& box = detection.box;
   Json json{{"object", detection.object},
             {"view", detection.view},
             {"confidence", share(detection.confidence)},
@@ -49,7 +52,7 @@ Json to_json(const Detection& detection) {
             {"features_in_area", detection.features_in_area},
             {"homography", rows(detection.scene_from_view)},
             {"outline", std::move(outline)},
-            {"box", {pixel(box.x), pixel(box.y), pixel(box.width), pixel(box.height)}}};
+            {"box", box_json(detection.box)}};
   if (!detection.alternatives.empty()) json["alternatives"] = detection.alternatives;
   return json;
 }
@@ -57,16 +60,19 @@ Json to_json(const Detection& detection) {
 Json to_json(const RecognitionResult& result, const std::string& image) {
   Json detections = Json::array();
   for (const Detection& detection : result.detections) detections.push_back(to_json(detection));
-  return {{"image", image},
-          {"width", result.image_size.width},
-          {"height", result.image_size.height},
-          {"time_ms", times(result.time_ms)},
-          {"counts",
-           {{"features", result.counts.features},
-            {"matched", result.counts.matched},
-            {"clustered", result.counts.clustered},
-            {"verified", result.counts.verified}}},
-          {"detections", std::move(detections)}};
+  Json json{{"image", image},
+            {"width", result.image_size.width},
+            {"height", result.image_size.height},
+            {"time_ms", times(result.time_ms)},
+            {"counts",
+             {{"features", result.counts.features},
+              {"matched", result.counts.matched},
+              {"clustered", result.counts.clustered},
+              {"verified", result.counts.verified}}},
+            {"detections", std::move(detections)}};
+  for (const UnknownRegion& region : result.unknown)
+    json["unknown"].push_back({{"box", box_json(region.box)}, {"features", region.features}});
+  return json;
 }
 
 Json to_json(const Explanation& explanation) {

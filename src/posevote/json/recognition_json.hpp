@@ -11,7 +11,8 @@ namespace posevote {
 
 using Json = nlohmann::ordered_json;
 
-/// {"image", "width", "height", "time_ms": {...}, "counts": {...}, "detections": [...]}. Pixels are
+/// {"image", "width", "height", "time_ms": {...}, "counts": {...}, "detections": [...], and, when
+/// there are any, "unknown": [{"box", "features"}]}. Pixels are
 /// given to 1/100, times to 1/1000 ms, the homography (row by row, view px -> scene px) in full.
 [[nodiscard]] Json to_json(const RecognitionResult& result, const std::string& image);
 

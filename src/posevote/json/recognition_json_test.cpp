@@ -38,6 +38,14 @@ TEST(RecognitionJson, HasTheFieldsThatProgramsRelyOn) {
             R"("outline":[[0.0,0.5],[10.12,0.0],[0.0,-5.0]],"box":[0.0,-5.0,10.13,5.5]}]})");
 }
 
+TEST(RecognitionJson, UnknownPartsAreThereWhenThereAreAny) {
+  RecognitionResult result;
+  EXPECT_FALSE(to_json(result, "x").contains("unknown"));
+  result.unknown = {{{10, 20, 30, 40}, 55}};
+  EXPECT_EQ(to_json(result, "x")["unknown"].dump(),
+            R"([{"box":[10.0,20.0,30.0,40.0],"features":55}])");
+}
+
 TEST(RecognitionJson, NothingFoundIsAnEmptyList) {
   EXPECT_EQ(to_json(RecognitionResult(), "x")["detections"], Json::array());
 }

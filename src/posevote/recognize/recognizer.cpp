@@ -11,6 +11,7 @@
 #include "posevote/match/look_alikes.hpp"
 #include "posevote/recognize/compete.hpp"
 #include "posevote/recognize/trace.hpp"
+#include "posevote/recognize/unknown.hpp"
 
 namespace posevote {
 namespace {
@@ -106,6 +107,8 @@ void RecognizeOptions::describe(OptionList& list) {
            "Clusters of votes looked at per picture, strongest first.");
   list.add("max_overlap", max_overlap, {0, 1}, "",
            "Overlap (intersection over union) beyond which two detections of one object are one.");
+  list.add("unknown", unknown,
+           "Also report textured parts of the picture that no object explains.");
   list.group("feature", feature);
   list.group("index", index);
   list.group("match", match);
@@ -187,6 +190,7 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
   }
   if (options.rule == "paper")
     std::ranges::stable_sort(result.detections, std::ranges::greater(), &Detection::confidence);
+  if (options.unknown) result.unknown = find_unknown(scene, size, result.detections);
   result.time_ms.verify = watch.lap();
   return result;
 }

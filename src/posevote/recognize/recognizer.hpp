@@ -41,6 +41,12 @@ struct Detection {
   std::vector<MatchedPoint> matches;      ///< the inliers
 };
 
+/// A textured part of the picture that no detection explains.
+struct UnknownRegion {
+  cv::Rect2f box;    ///< px, inside the picture
+  int features = 0;  ///< of the scene, in it
+};
+
 struct StageTimes {
   double detect = 0, match = 0, vote = 0, verify = 0, total = 0;  ///< milliseconds
 };
@@ -52,7 +58,8 @@ struct StageCounts {
 
 struct RecognitionResult {
   cv::Size image_size;
-  std::vector<Detection> detections;  ///< best first, each physical instance once
+  std::vector<Detection> detections;   ///< best first, each physical instance once
+  std::vector<UnknownRegion> unknown;  ///< most features first; only with RecognizeOptions::unknown
   StageTimes time_ms;
   StageCounts counts;
 };
@@ -67,6 +74,7 @@ struct RecognizeOptions {
   VerifyOptions verify;
   PaperOptions paper;
   int max_hypotheses = 400;  ///< clusters looked at per scene, strongest first
+  bool unknown = false;      ///< also report what no object explains
   double max_overlap = 0.4;  ///< intersection over union of two detections of one object
   void describe(OptionList& list);
 };

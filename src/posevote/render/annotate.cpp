@@ -58,6 +58,14 @@ class Painter {
         text_px_(std::clamp(static_cast<int>(std::lround(short_side() / 26)), 10, 200)),
         font_(options.font, text_px_) {}
 
+  void frame(const UnknownRegion& region) {
+    const cv::Rect box(region.box);
+    cv::rectangle(image_, box, cv::Scalar::all(0), 2 * line_px_ + 1);
+    cv::rectangle(image_, box, cv::Scalar::all(200), line_px_);
+    const int pad = text_px_ / 3;
+    font_.draw(image_, "?", {box.x + pad, box.y + text_px_ + pad}, cv::Scalar::all(255));
+  }
+
   void fill(const Detection& detection) {
     if (!options_.fill || detection.outline.empty()) return;
     cv::Mat tinted = image_.clone();
@@ -148,6 +156,7 @@ cv::Mat annotate(const cv::Mat& image, const RecognitionResult& result,
   cv::Mat annotated = to_bgr(image);
   if (annotated.empty()) return annotated;
   Painter painter(annotated, options);
+  for (const UnknownRegion& region : result.unknown) painter.frame(region);
   for (const Detection& detection : result.detections) painter.fill(detection);
   for (const Detection& detection : result.detections) painter.points(detection);
   for (const Detection& detection : result.detections) painter.outline(detection);

@@ -16,8 +16,9 @@ struct AnnotateOptions {
 };
 
 /// A BGR 8-bit copy of `image` (1, 3 or 4 channels of 8 or 16 bits) with outline, name, confidence
-/// and matched key points of every detection. An object has the same colour in every picture. Sizes
-/// of lines and letters follow the picture's size. Detections outside the picture do no harm.
+/// and matched key points of every detection, and a plain frame about unknown parts. An object has
+/// the same colour in every picture. Sizes of lines and letters follow the picture's size.
+/// Detections outside the picture do no harm.
 [[nodiscard]] cv::Mat annotate(const cv::Mat& image, const RecognitionResult& result,
                                const AnnotateOptions& options = {});
 

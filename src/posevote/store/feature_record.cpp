@@ -40,4 +40,10 @@ FeatureOptions recorded_options(const FeatureRecord& record) {
   return options;
 }
 
+std::string why_not_mixed(const FeatureRecord& present, const FeatureRecord& wanted) {
+  return "holds features '" + present.signature + "', which must not be mixed with '" +
+         wanted.signature +
+         "'; use the same features, or convert the database: posevote objects rebuild";
+}
+
 }  // namespace posevote

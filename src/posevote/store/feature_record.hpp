@@ -22,4 +22,8 @@ struct FeatureRecord {
 /// Error{feature_mismatch}.
 [[nodiscard]] FeatureOptions recorded_options(const FeatureRecord& record);
 
+/// Why features of the one record must not be added to a database with the other; the subject, the
+/// database, is left out.
+[[nodiscard]] std::string why_not_mixed(const FeatureRecord& present, const FeatureRecord& wanted);
+
 }  // namespace posevote

@@ -52,10 +52,7 @@ void PostgresStore::require_features(const FeatureRecord& features) {
   const auto present = recorded_features();
   if (!present) return record(features);
   if (present->signature != features.signature)
-    fail(ErrorCode::feature_mismatch,
-         "holds features '" + present->signature + "', which must not be mixed with '" +
-             features.signature +
-             "'; use the same features, or convert the database: posevote objects rebuild");
+    fail(ErrorCode::feature_mismatch, why_not_mixed(*present, features));
 }
 
 AddResult PostgresStore::add_view(const std::string& object, const TaughtView& view,

@@ -75,9 +75,10 @@ std::string number(int count) {
 void end_at_hypothesis(Explanation& result, const TracedHypothesis& hypothesis) {
   switch (hypothesis.stage) {
     case HypothesisStage::pose:
-      return end_at(result, "pose", hypothesis.reason, "verify.min_inliers");
+      return end_at(result, "pose", "its strongest pose is refused: " + hypothesis.reason,
+                    "verify.min_inliers");
     case HypothesisStage::chance:
-      return end_at(result, "chance", hypothesis.reason, "verify.min_inliers");
+      return end_at(result, "chance", hypothesis.reason, "verify.evidence.tolerance");
     case HypothesisStage::presence:
       return end_at(result,
                     hypothesis.detection.presence.object < hypothesis.detection.presence.place

@@ -2,13 +2,13 @@
 """Fits the two logistic models of src/posevote/verify/presence.cpp and checks them.
 
     posevote evaluate SET... --negatives SET --set verify.false_alarms_per_1000_images=1e6 --dump claims.jsonl
-    bench/calibrate_presence.py claims.jsonl PICTURES
+    bench/calibrate_presence.py claims.jsonl PICTURES [--svg FILE]
 
 with the number of pictures that were looked at (the negatives count once for each set) prints the constants of presence.cpp, the reliability of the probability and what the dial costs.
 The figures headed "left out" come from models that did not see the set they are asked about.
 """
+import argparse
 import json
-import sys
 
 import numpy as np
 
@@ -71,7 +71,55 @@ def fit_dial(left_out, right, pictures):
     return np.exp(log_even), -1 / slope
 
 
-def main(path, pictures):
+def reliability(probabilities, right):
+    """(mean probability, claims, share that is right) of each bin that is not empty."""
+    edges = (0, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.01)
+    bins = []
+    for low, high in zip(edges, edges[1:]):
+        bin_ = (probabilities >= low) & (probabilities < high)
+        if bin_.any():
+            bins.append((probabilities[bin_].mean(), int(bin_.sum()), right[bin_].mean()))
+    return bins
+
+
+def wilson(share, number, z=1.96):
+    centre = (share + z * z / (2 * number)) / (1 + z * z / number)
+    half = z * np.sqrt(share * (1 - share) / number + z * z / (4 * number**2)) / (1 + z * z / number)
+    return centre - half, centre + half
+
+
+def draw_reliability(bins, side=360, margin=56):
+    """An SVG: what was claimed across, what was true up, with Wilson's intervals."""
+    def x(value):
+        return margin + side * value
+
+    def y(value):
+        return margin / 2 + side * (1 - value)
+
+    size = side + 1.5 * margin
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size:.0f} {size:.0f}" '
+        'font-family="sans-serif" font-size="12">',
+        f'<rect width="{size:.0f}" height="{size:.0f}" fill="white"/>']
+    for tick in (0, 0.2, 0.4, 0.6, 0.8, 1):
+        parts.append(f'<path d="M{x(0)} {y(tick)}H{x(1)}M{x(tick)} {y(0)}V{y(1)}" stroke="#ddd"/>')
+        parts.append(f'<text x="{x(0) - 6}" y="{y(tick) + 4}" text-anchor="end">{tick:g}</text>')
+        parts.append(f'<text x="{x(tick)}" y="{y(0) + 16}" text-anchor="middle">{tick:g}</text>')
+    parts.append(f'<path d="M{x(0)} {y(0)}L{x(1)} {y(1)}" stroke="#888" stroke-dasharray="4 4"/>')
+    for mean, number, share in bins:
+        low, high = wilson(share, number)
+        parts.append(f'<path d="M{x(mean):.1f} {y(low):.1f}V{y(high):.1f}" stroke="#2563a8"/>')
+        parts.append(f'<circle cx="{x(mean):.1f}" cy="{y(share):.1f}" r="4" fill="#2563a8">'
+                     f'<title>{number} claims</title></circle>')
+    middle = x(0.5)
+    parts.append(f'<text x="{middle}" y="{y(0) + 36}" text-anchor="middle">probability claimed, '
+                 'by models that did not see the data set</text>')
+    parts.append(f'<text transform="translate(16 {y(0.5)}) rotate(-90)" text-anchor="middle">'
+                 'share that is right</text></svg>')
+    return "\n".join(parts) + "\n"
+
+
+def main(path, pictures, svg):
     inputs, right, misplaced, sets = read(path)
     everything = np.ones(len(right), bool)
     models = fit_both(inputs, right, misplaced, everything)
@@ -86,11 +134,12 @@ def main(path, pictures):
     even, steepness = fit_dial(left_out, right, pictures)
     print(f"constexpr Dial kDial{{{even:.0f}, {steepness:.2f}}};")
     print("\nreliability, left out: probability, claims, share that is right")
-    edges = (0, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.01)
-    for low, high in zip(edges, edges[1:]):
-        bin_ = (left_out >= low) & (left_out < high)
-        if bin_.any():
-            print(f"  {left_out[bin_].mean():.3f} {bin_.sum():6d} {right[bin_].mean():.3f}")
+    bins = reliability(left_out, right)
+    for mean, number, share in bins:
+        print(f"  {mean:.3f} {number:6d} {share:.3f}")
+    if svg:
+        with open(svg, "w", encoding="utf-8") as file:
+            file.write(draw_reliability(bins))
     print("\nleast probability: right and false with all sets | left out | false per 1000 pictures")
     fitted = probability(models, inputs)
     for least in (0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.97):
@@ -100,4 +149,9 @@ def main(path, pictures):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], int(sys.argv[2]))
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("claims")
+    parser.add_argument("pictures", type=int)
+    parser.add_argument("--svg")
+    given = parser.parse_args()
+    main(given.claims, given.pictures, given.svg)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 
 namespace posevote {
 namespace {
@@ -41,29 +42,60 @@ std::vector<std::pair<int, float>> others_of(int object, const NeighborList& nei
   return others;
 }
 
+/// For each object its place in `before`, -1 when it is not there with the same views.
+std::vector<int> places_before(const ModelSet& models, const LookAlikes* before) {
+  std::vector<int> places(models.objects().size(), -1);
+  if (before == nullptr) return places;
+  std::map<std::string, int> by_name;
+  const auto& known = before->models->objects();
+  for (std::size_t i = 0; i < known.size(); ++i) by_name[known[i].name] = static_cast<int>(i);
+  for (std::size_t a = 0; a < places.size(); ++a) {
+    const ObjectModel& object = models.objects()[a];
+    const auto at = by_name.find(object.name);
+    if (at != by_name.end() && known[static_cast<std::size_t>(at->second)].views == object.views)
+      places[a] = at->second;
+  }
+  return places;
+}
+
+/// Marks the objects on which a good part of the sample is found.
+void mark_look_alikes(std::size_t object, const Features& sample, const Index& index,
+                      LookAlikes& result) {
+  const std::size_t count = result.models->objects().size();
+  const NeighborLists lists = index.search(sample, kNeighbors);
+  std::map<int, int> shared;
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    const auto others = others_of(static_cast<int>(object), lists[i], *result.models);
+    if (others.empty() || others[0].first < 0) continue;
+    const float third = others.size() > 1 ? others[1].second : lists[i].back().distance;
+    if (others[0].second < kShared * third) ++shared[others[0].first];
+  }
+  for (const auto& [other, number] : shared) {
+    if (number <= kGoodPart * static_cast<double>(sample.size())) continue;
+    const auto b = static_cast<std::size_t>(other);
+    result.table[object * count + b] = result.table[b * count + object] = 1;
+  }
+}
+
 }  // namespace
 
-std::vector<char> find_look_alikes(const ModelSet& models, const Index& index) {
-  const std::size_t count = models.objects().size();
-  std::vector<char> related(count * count, 0);
-  if (count < 2) return related;
-  for (std::size_t a = 0; a < count; ++a) {
-    const Features sample = sample_of(models.objects()[a]);
-    if (sample.size() == 0) continue;
-    const NeighborLists lists = index.search(sample, kNeighbors);
-    std::map<int, int> shared;
-    for (std::size_t i = 0; i < lists.size(); ++i) {
-      const auto others = others_of(static_cast<int>(a), lists[i], models);
-      if (others.empty() || others[0].first < 0) continue;
-      const float third = others.size() > 1 ? others[1].second : lists[i].back().distance;
-      if (others[0].second < kShared * third) ++shared[others[0].first];
+LookAlikes find_look_alikes(std::shared_ptr<const ModelSet> models, const Index& index,
+                            const LookAlikes* before) {
+  const std::size_t count = models->objects().size();
+  LookAlikes result{models, std::vector<char>(count * count, 0)};
+  const std::vector<int> places = places_before(*models, before);
+  for (std::size_t a = 0; a < count && count > 1; ++a) {
+    if (places[a] < 0) {
+      const Features sample = sample_of(models->objects()[a]);
+      if (sample.size() > 0) mark_look_alikes(a, sample, index, result);
+      continue;
     }
-    for (const auto& [b, number] : shared)
-      if (number > kGoodPart * static_cast<double>(sample.size()))
-        related[a * count + static_cast<std::size_t>(b)] =
-            related[static_cast<std::size_t>(b) * count + a] = 1;
+    const std::size_t row = static_cast<std::size_t>(places[a]) * before->models->objects().size();
+    for (std::size_t b = 0; b < count; ++b)
+      if (places[b] >= 0 && before->table[row + static_cast<std::size_t>(places[b])])
+        result.table[a * count + b] = 1;
   }
-  return related;
+  return result;
 }
 
 }  // namespace posevote

@@ -1,6 +1,7 @@
 // Which taught objects look alike: variants of one pack, or one thing taught under two names.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "posevote/index/index.hpp"
@@ -8,9 +9,16 @@
 
 namespace posevote {
 
-/// The table of `Neighborhood`: element a * objects + b is 1 when a good part of the features of
-/// one of the two objects is found on the other, much nearer than on any third. Looks at a sample
-/// of each object's features; `index` holds `models`. Symmetric.
-[[nodiscard]] std::vector<char> find_look_alikes(const ModelSet& models, const Index& index);
+/// Pairs of objects that look alike; the parameter `related` of `Neighborhood` is its table.
+struct LookAlikes {
+  std::shared_ptr<const ModelSet> models;
+  std::vector<char> table;  ///< a * objects + b is 1 when a and b look alike; symmetric
+};
+
+/// Two objects look alike when a good part of the features of one of them is found on the other,
+/// much nearer than on any third. Looks at a sample of each object's features; `index` holds
+/// `models`. Of objects that are in `before` with the same views, only new partners are looked for.
+[[nodiscard]] LookAlikes find_look_alikes(std::shared_ptr<const ModelSet> models,
+                                          const Index& index, const LookAlikes* before = nullptr);
 
 }  // namespace posevote

@@ -40,7 +40,7 @@ ObjectModel object(const std::string& name, const std::vector<int>& numbers, int
 
 std::vector<char> look_alikes(std::vector<ObjectModel> objects) {
   const auto models = std::make_shared<ModelSet>("surf", std::move(objects));
-  return find_look_alikes(*models, *make_index(models, {}));
+  return find_look_alikes(models, *make_index(models, {})).table;
 }
 
 TEST(FindLookAlikes, VariantsOfOnePackAreRelatedBothWays) {
@@ -62,6 +62,21 @@ TEST(FindLookAlikes, ACommonLogoMakesNone) {
 TEST(FindLookAlikes, OneThingUnderTwoNamesIsFoundWithManyViewsAndNothingElse) {
   EXPECT_EQ(look_alikes({object("cup", range(0, 80), 6), object("mug", range(0, 80), 6)}),
             (std::vector<char>{0, 1, 1, 0}));
+}
+
+TEST(FindLookAlikes, WhatIsKnownIsKeptAndNewObjectsFindTheirPartners) {
+  const ObjectModel mint = object("mint", range(0, 80)), book = object("book", range(500, 580)),
+                    mug = object("mug", range(0, 80));
+  const auto few = std::make_shared<ModelSet>("surf", std::vector<ObjectModel>{mint, mug});
+  const LookAlikes known = find_look_alikes(few, *make_index(few, {}));
+  ASSERT_EQ(known.table, (std::vector<char>{0, 1, 1, 0}));
+  const auto more = std::make_shared<ModelSet>(
+      "surf", std::vector<ObjectModel>{book, mug, mint, object("pad", range(500, 580))});
+  EXPECT_EQ(find_look_alikes(more, *make_index(more, {}), &known).table,
+            find_look_alikes(more, *make_index(more, {})).table);
+  const auto without = std::make_shared<ModelSet>("surf", std::vector<ObjectModel>{mint, book});
+  EXPECT_EQ(find_look_alikes(without, *make_index(without, {}), &known).table,
+            std::vector<char>(4, 0));
 }
 
 TEST(FindLookAlikes, WithOneObjectOrEmptyViewsThereIsNothing) {

@@ -141,7 +141,7 @@ struct Recognizer::State {
   struct Snapshot {
     std::shared_ptr<const ModelSet> models;
     std::shared_ptr<const Index> index;
-    std::vector<char> look_alikes;  ///< see Neighborhood
+    LookAlikes look_alikes;
   };
 
   RecognizeOptions options;
@@ -161,7 +161,7 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
 
   const ModelSet& models = *now.models;
   const Neighborhood neighborhood(now.index->search(scene, options.match.neighbors), models,
-                                  now.look_alikes);
+                                  now.look_alikes.table);
   const auto matches = match_features(neighborhood, options.match);
   result.counts.matched = count_distinct(matches, [](const Match& m) { return m.scene; });
   result.time_ms.match = watch.lap();
@@ -240,8 +240,9 @@ void Recognizer::set_models(std::shared_ptr<const ModelSet> models) {
                                                  "'; choose the same kind or rebuild them");
   const auto before = state_->snapshot.load();
   auto index = make_index(models, state_->options.index, before ? before->index.get() : nullptr);
-  std::vector<char> look_alikes;  // the paper knows none
-  if (state_->options.rule != "paper") look_alikes = find_look_alikes(*models, *index);
+  LookAlikes look_alikes;
+  if (state_->options.rule != "paper")  // which knows none
+    look_alikes = find_look_alikes(models, *index, before ? &before->look_alikes : nullptr);
   state_->snapshot.store(std::make_shared<const State::Snapshot>(
       State::Snapshot{std::move(models), std::move(index), std::move(look_alikes)}));
 }

@@ -5,6 +5,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { afterAll } from "vitest";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 
 export const demo = needed("POSEVOTE_DEMO");
@@ -150,13 +151,17 @@ export class Studio {
   }
 }
 
+const running = new Set<ChildProcess>();
+afterAll(() => running.forEach((server) => server.kill("SIGKILL"))); // of tests that failed half-way
+
 function serve(folder: string, port: number, more: string[], said: string[]): ChildProcess {
   const server = spawn(
     needed("POSEVOTE_PROGRAM"),
     ["serve", "--db", join(folder, "objects.db"), "--listen", `127.0.0.1:${port}`, ...more],
     { stdio: ["ignore", "pipe", "pipe"] },
   );
-  process.once("exit", () => server.kill("SIGKILL")); // also after a test that failed half-way
+  running.add(server);
+  server.once("exit", () => running.delete(server));
   server.stdout!.on("data", (text) => said.push(String(text)));
   server.stderr!.on("data", (text) => said.push(String(text)));
   return server;

@@ -130,7 +130,7 @@ TEST_F(Streams, ASleepingClientHoldsNobodyUpAndIsLeftBehind) {
   const double before = metric("posevote_frames_total");
   EXPECT_TRUE(watch("/api/stream.mjpg",
                     [](const std::string& text) { return frames_in(text).size() >= 40; }));
-  EXPECT_GE(metric("posevote_frames_total"), before + 40);
+  EXPECT_GE(metric("posevote_frames_total"), before + 39);  // the first was there before
   EXPECT_TRUE(eventually([&] { return metric("posevote_streams") == 0; }))
       << "who reads nothing is given up";
   close(asleep);

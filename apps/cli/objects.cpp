@@ -11,6 +11,7 @@
 #include "posevote/image/image_header.hpp"
 #include "posevote/json/recognition_json.hpp"
 #include "posevote/store/transfer.hpp"
+#include "store_json.hpp"
 
 namespace posevote::cli {
 namespace {
@@ -19,38 +20,19 @@ std::string yaw_text(double yaw_deg) {
   return std::isnan(yaw_deg) ? "" : fixed(yaw_deg, 0);
 }
 
-Json yaw_json(double yaw_deg) {
-  return std::isnan(yaw_deg) ? Json() : Json(yaw_deg);
-}
-
-Json to_json(const ObjectSummary& object) {
-  return {{"object", object.name},
-          {"views", object.views},
-          {"features", object.features},
-          {"first_taught_at", object.first_taught_at},
-          {"last_taught_at", object.last_taught_at}};
-}
-
-Json to_json(const std::string& object, const ViewSummary& view) {
-  return {{"object", object},
-          {"view", view.id},
-          {"yaw", yaw_json(view.yaw_deg)},
-          {"width", view.image_size.width},
-          {"height", view.image_size.height},
-          {"features", view.features},
-          {"coverage", view.coverage},
-          {"method", view.method},
-          {"source", view.provenance.source},
-          {"taught_at", view.provenance.taught_at},
-          {"version", view.provenance.version},
-          {"hash", view.hash}};
+Json view_line(const std::string& object, const ViewSummary& view) {
+  Json json{{"object", object}};
+  json.update(view_json(view));
+  json["version"] = view.provenance.version;
+  json["hash"] = view.hash;
+  return json;
 }
 
 void list(const ObjectStore& store, bool json, bool names) {
   const auto objects = store.list();
   if (json || names) {
     for (const ObjectSummary& object : objects)
-      std::cout << (json ? to_line(to_json(object)) : object.name) << '\n';
+      std::cout << (json ? to_line(object_json(object)) : object.name) << '\n';
     return;
   }
   if (objects.empty()) {
@@ -71,7 +53,7 @@ void show(const ObjectStore& store, const std::string& name, bool json) {
   Table table;
   table.header = {"view", "yaw", "picture", "features", "covers", "by", "taught", "from"};
   for (const ViewSummary& view : views) {
-    if (json) std::cout << to_line(to_json(name, view)) << '\n';
+    if (json) std::cout << to_line(view_line(name, view)) << '\n';
     table.rows.push_back(
         {view.id, yaw_text(view.yaw_deg),
          std::to_string(view.image_size.width) + " x " + std::to_string(view.image_size.height),

@@ -29,35 +29,11 @@ std::string text_of(const Json& json, const char* name) {
   return at->get<std::string>();
 }
 
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json points_json(const std::vector<cv::Point2f>& points) {
   Json json = Json::array();
   for (const cv::Point2f& point : points)
     json.push_back({std::round(point.x * 100) / 100, std::round(point.y * 100) / 100});
   return json;
-}
-
-Json object_json(const ObjectSummary& object) {
-  return {{"object", object.name},
-          {"views", object.views},
-          {"features", object.features},
-          {"first_taught_at", object.first_taught_at},
-          {"last_taught_at", object.last_taught_at}};
-}
-
-Json view_json(const ViewSummary& view) {
-  return {{"view", view.id},
-          {"yaw", number_or_null(view.yaw_deg)},
-          {"width", view.image_size.width},
-          {"height", view.image_size.height},
-          {"features", view.features},
-          {"coverage", view.coverage},
-          {"method", view.method},
-          {"source", view.provenance.source},
-          {"taught_at", view.provenance.taught_at}};
 }
 
 Json quality_json(const ViewQuality& quality) {

@@ -1,10 +1,12 @@
-// The server's own JSON: objects, views, quality cards. Recognition results are posevote/json's.
+// The server's own JSON: quality cards, impostors. Objects and views are common/store_json's,
+// recognition results posevote/json's.
 #pragma once
 
 #include "http/message.hpp"
 #include "posevote/json/recognition_json.hpp"
 #include "posevote/store/object_store.hpp"
 #include "posevote/teach/quality.hpp"
+#include "store_json.hpp"
 
 namespace posevote::server {
 
@@ -16,12 +18,7 @@ namespace posevote::server {
 /// `json[name]` as text; throws Problem 400 when it is not there or no text.
 [[nodiscard]] std::string text_of(const Json& json, const char* name);
 
-/// null for NaN and infinities.
-[[nodiscard]] Json number_or_null(double value);
-
 [[nodiscard]] Json points_json(const std::vector<cv::Point2f>& points);
-[[nodiscard]] Json object_json(const ObjectSummary& object);
-[[nodiscard]] Json view_json(const ViewSummary& view);
 [[nodiscard]] Json quality_json(const ViewQuality& quality);
 [[nodiscard]] Json impostor_json(const ImpostorSummary& impostor);
 

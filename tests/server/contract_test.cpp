@@ -350,7 +350,8 @@ void Contract::too_much() {
       {"POST /api/explain", "/api/explain", cover_},
       {"POST /api/impostors", "/api/impostors", cover_},
       {"POST /api/objects/{object}/views", "/api/objects/poster/views", cover_},
-      {"PUT " + views + "/mask", "/api/objects/poster/views/" + ids_["view"] + "/mask", cover_},
+      {"PUT " + views + "/mask", "/api/objects/poster/views/" + ids_["view"] + "/mask",
+       "a good mask would make another view"},
       {"GET " + views + "/quality", "/api/objects/poster/views/" + ids_["view"] + "/quality", ""},
       {"PUT /api/teach-sessions/{session}/proposal/mask", one + "/proposal/mask", cover_}};
   for (const auto& [name, path, body] : requests) {

@@ -158,7 +158,8 @@ Claim* look_alike(const Claim& claim, std::vector<Claim>& better, double max_ove
   constexpr double kNear = 0.5;  // of the better one's digits
   const auto found = std::ranges::find_if(better, [&](const Claim& other) {
     return other.object != claim.object && overlap(other.box, claim.box) > max_overlap &&
-           claim.hypothesis.log10_false_alarms < kNear * other.hypothesis.log10_false_alarms;
+           claim.hypothesis.log10_false_alarms < kNear * other.hypothesis.log10_false_alarms &&
+           !stands_in_front(claim.region, other.region);
   });
   return found == better.end() ? nullptr : &*found;
 }

@@ -13,7 +13,7 @@ import json
 import numpy as np
 
 NAMES = ("digits", "confidence", "coverage", "distortion", "structure", "structure_near_matches",
-         "colour_difference", "visible", "rim")
+         "colour_difference", "visible", "rim", "found", "consensus")
 RIDGE_OBJECT, RIDGE_PLACE = 1.0, 3.0
 
 
@@ -24,10 +24,12 @@ def read(path):
         if line["verdict"] not in ("right", "false"):
             continue
         values = [line["measured"][name] for name in NAMES]
-        digits, confidence, coverage, distortion, structure, near, colour, visible, rim = values
+        digits, confidence, coverage, distortion, structure, near, colour, visible, rim, found, \
+            consensus = values
         inputs.append([np.log10(1 + max(0, digits)), np.log(confidence + 0.01), np.sqrt(coverage),
                        structure, near, colour, visible, rim,
-                       distortion * (1 - coverage)])
+                       distortion * (1 - coverage), np.sqrt(found), max(0, consensus),
+                       float(consensus < 0)])
         right.append(line["verdict"] == "right")
         misplaced.append(line.get("truth") == line["object"] and not right[-1]
                          and line["iou"] > 0.15)

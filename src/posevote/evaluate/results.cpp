@@ -75,6 +75,8 @@ ordered_json measured_json(const PresenceEvidence& measured) {
           {"structure_near_matches", number(agreement.structure_near_matches)},
           {"colour_difference", number(agreement.colour_difference)},
           {"rim", number(agreement.rim)},
+          {"found", number(measured.found)},
+          {"consensus", number(measured.consensus)},
           {"visible", number(agreement.visible)}};
 }
 

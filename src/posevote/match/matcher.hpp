@@ -11,7 +11,7 @@ namespace posevote {
 
 struct MatchOptions {
   int neighbors = 24;       ///< nearest taught descriptors looked at per scene feature
-  double max_ratio = 0.88;  ///< distance / distance to the nearest descriptor of another object
+  double max_ratio = 0.9;  ///< distance / distance to the nearest descriptor of another object
   void describe(OptionList& list);
 };
 

@@ -4,16 +4,11 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "posevote/recognize/overlap.hpp"
 #include "posevote/verify/discriminate.hpp"
 
 namespace posevote {
 namespace {
-
-double overlap(const cv::Rect2f& a, const cv::Rect2f& b) {
-  const double common = (a & b).area();
-  const double all = a.area() + b.area() - common;
-  return all > 0 ? common / all : 0;
-}
 
 /// The part of the scene in which an object was surely seen: the convex hull of its matches.
 class Region {
@@ -115,22 +110,32 @@ std::vector<char> features_taken(const Claim& claim, const std::vector<Claim>& b
   return taken;
 }
 
-/// Several views of an object explain the same features. The features say which object it is, but
-/// where it is says the view whose picture agrees best: of those with a good part of the strongest
-/// one's evidence, that one goes first. `claims` are sorted, best first.
+/// Several views of an object explain the same features. The features say which object it is;
+/// where it is they say together: of those with a good part of the strongest one's evidence, the
+/// one whose box overlaps most with what the others claim, each as far as it is probable, goes
+/// first. `claims` are sorted, best first.
 void prefer_most_probable(std::vector<Claim>& claims) {
   constexpr double kPart = 0.6;  // of the strongest one's digits
   const auto probability = [](const Claim& claim) {
     return claim.hypothesis.presence.probability();
   };
   for (auto first = claims.begin(); first != claims.end(); ++first) {
-    auto best = first;
-    for (auto other = first + 1; other != claims.end(); ++other) {
+    std::vector<std::size_t> same;
+    for (auto other = first; other != claims.end(); ++other) {
       if (other->hypothesis.log10_false_alarms > kPart * first->hypothesis.log10_false_alarms)
         break;
-      if (other->object != first->object || other->region.share_in(first->region) < 0.5) continue;
-      if (probability(*other) > probability(*best)) best = other;
+      if (other->object == first->object && other->region.share_in(first->region) >= 0.5)
+        same.push_back(static_cast<std::size_t>(other - claims.begin()));
     }
+    const auto expected_overlap = [&](std::size_t one) {
+      double sum = 0;
+      for (const std::size_t other : same)
+        sum += probability(claims[other]) * overlap(claims[one].box, claims[other].box);
+      return sum;
+    };
+    if (same.empty()) continue;
+    const auto best =
+        claims.begin() + static_cast<std::ptrdiff_t>(std::ranges::max(same, {}, expected_overlap));
     std::rotate(first, best, best + 1);
   }
 }

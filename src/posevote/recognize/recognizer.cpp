@@ -10,6 +10,7 @@
 #include "posevote/core/stopwatch.hpp"
 #include "posevote/match/look_alikes.hpp"
 #include "posevote/recognize/compete.hpp"
+#include "posevote/recognize/consensus.hpp"
 #include "posevote/recognize/trace.hpp"
 #include "posevote/recognize/unknown.hpp"
 
@@ -180,6 +181,8 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
     hypotheses = apply_paper_rule(clusters, context, options.paper);
   } else {
     hypotheses = verify_all(clusters, context, options);
+    measure_consensus(hypotheses, models);
+    for (Hypothesis& hypothesis : hypotheses) rate(hypothesis, options.verify);
     if (trace) record_hypotheses(hypotheses, context, *trace);
     hypotheses = compete(std::move(hypotheses), context, options);
   }

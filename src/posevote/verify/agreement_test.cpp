@@ -111,7 +111,7 @@ TEST(MeasureAgreement, TakesGreyDeepAndTinyScenes) {
 }
 
 PresenceEvidence convincing() {
-  return {200, 0.3, 0.7, 0.05, {0.8, 0.85, 0.05, 0.7, 1}};
+  return {200, 0.3, 0.7, 0.05, {0.8, 0.85, 0.05, 0.7, 1}, 0.6, 0.85};
 }
 
 TEST(RatePresence, IsSureOfAnObjectThatAgreesInEveryWay) {
@@ -126,12 +126,13 @@ TEST(RatePresence, DoubtsASharedLogoOnAnotherThing) {
 TEST(RatePresence, FallsWithEveryKindOfEvidence) {
   const double sure = rate_presence(convincing()).probability();
   auto fewer_digits = convincing(), other_colour = convincing(), other_picture = convincing();
-  auto no_rim = convincing();
+  auto no_rim = convincing(), no_consensus = convincing();
   fewer_digits.digits = 2;
   no_rim.agreement.rim = 0.2;
+  no_consensus.consensus = 0.3;
   other_colour.agreement.colour_difference = 0.6;
   other_picture.agreement.structure = other_picture.agreement.structure_near_matches = 0.05;
-  for (const auto& evidence : {fewer_digits, other_colour, other_picture, no_rim})
+  for (const auto& evidence : {fewer_digits, other_colour, other_picture, no_rim, no_consensus})
     EXPECT_LT(rate_presence(evidence).probability(), sure);
 }
 

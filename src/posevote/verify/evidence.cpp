@@ -12,10 +12,6 @@ struct Candidate {
   double chance;
 };
 
-float angle_between(float a, float b) {
-  return std::abs(std::remainder(a - b, 2 * std::numbers::pi_v<float>));
-}
-
 /// Chance that one random descriptor comes as near. Below a tenth of the reference the power law is
 /// not trusted any more.
 double chance_of(float distance, const Reference& reference, const EvidenceOptions& options) {
@@ -25,26 +21,45 @@ double chance_of(float distance, const Reference& reference, const EvidenceOptio
 }
 
 /// What a view's key point must look like in the scene.
-Keypoint predict(const cv::Matx33d& scene_from_view, const Keypoint& k) {
-  Keypoint expected = k;
-  const cv::Point2f place = transform_point(scene_from_view, {k.x, k.y});
+struct Expected {
+  cv::Point2f place;
+  float least_scale = 0, largest_scale = -1;  ///< none when the pose turns it inside out
+  float cosine = 1, sine = 0;                 ///< of its angle
+  std::int8_t laplacian = 0;
+};
+
+Expected predict(const cv::Matx33d& scene_from_view, const Keypoint& k, float stretch) {
+  Expected expected;
+  expected.place = transform_point(scene_from_view, {k.x, k.y});
   const cv::Matx22d jacobian = local_jacobian(scene_from_view, {k.x, k.y});
   const double determinant = cv::determinant(jacobian);
+  if (!(determinant > 0)) return expected;
+  const float scale = k.scale * static_cast<float>(std::sqrt(determinant));
+  expected.least_scale = scale / stretch;
+  expected.largest_scale = scale * stretch;
   const double dx = std::cos(k.angle), dy = std::sin(k.angle);
-  expected.x = place.x;
-  expected.y = place.y;
-  expected.scale = determinant > 0 ? k.scale * static_cast<float>(std::sqrt(determinant)) : -1;
-  expected.angle = static_cast<float>(std::atan2(jacobian(1, 0) * dx + jacobian(1, 1) * dy,
-                                                 jacobian(0, 0) * dx + jacobian(0, 1) * dy));
+  const double x = jacobian(0, 0) * dx + jacobian(0, 1) * dy;
+  const double y = jacobian(1, 0) * dx + jacobian(1, 1) * dy;
+  const double length = std::max(1e-12, std::sqrt(x * x + y * y));
+  expected.cosine = static_cast<float>(x / length);
+  expected.sine = static_cast<float>(y / length);
+  expected.laplacian = k.laplacian;
   return expected;
 }
 
-bool fits(const Keypoint& found, const Keypoint& expected, const EvidenceOptions& options) {
-  if (found.laplacian * expected.laplacian < 0) return false;
-  const auto octaves = static_cast<float>(options.max_scale_octaves);
-  if (std::abs(std::log2(found.scale / expected.scale)) > octaves) return false;
-  return angle_between(found.angle, expected.angle) <=
-         static_cast<float>(options.max_rotation_deg) * std::numbers::pi_v<float> / 180;
+/// The limits of `EvidenceOptions`, made ready for the innermost loop.
+struct Limits {
+  explicit Limits(const EvidenceOptions& options)
+      : stretch(static_cast<float>(std::exp2(options.max_scale_octaves))),
+        cosine(static_cast<float>(std::cos(options.max_rotation_deg * std::numbers::pi / 180))) {}
+  float stretch;  ///< largest factor between a scale and the expected one
+  float cosine;   ///< least, of the angle between them
+};
+
+bool fits(const PlacedKeypoint& found, const Expected& expected, const Limits& limits) {
+  return found.scale >= expected.least_scale && found.scale <= expected.largest_scale &&
+         found.laplacian * expected.laplacian >= 0 &&
+         found.cosine * expected.cosine + found.sine * expected.sine >= limits.cosine;
 }
 
 struct Trial {
@@ -53,17 +68,19 @@ struct Trial {
 };
 
 Trial try_feature(const cv::Matx33d& scene_from_view, float tolerance_px, int view, int feature,
-                  const SceneContext& scene, const std::vector<char>& taken,
+                  const SceneContext& scene, const std::vector<char>& taken, const Limits& limits,
                   const EvidenceOptions& options) {
   const Features& known = scene.models.views()[static_cast<std::size_t>(view)].view->features;
   const Features& found = scene.grid.features();
   Trial trial;
-  const Keypoint expected =
-      predict(scene_from_view, known.keypoints[static_cast<std::size_t>(feature)]);
-  if (!(expected.scale > 0) || std::isnan(expected.x)) return trial;
-  scene.grid.for_each_near({expected.x, expected.y}, tolerance_px, [&](int s) {
+  const Expected expected =
+      predict(scene_from_view, known.keypoints[static_cast<std::size_t>(feature)], limits.stretch);
+  if (!(expected.largest_scale >= scene.grid.least_scale()) || std::isnan(expected.place.x))
+    return trial;
+  scene.grid.for_each_near(expected.place, tolerance_px, [&](const PlacedKeypoint& k) {
+    if (!fits(k, expected, limits)) return;
+    const int s = k.index;
     if (!taken.empty() && taken[static_cast<std::size_t>(s)]) return;
-    if (!fits(found.keypoints[static_cast<std::size_t>(s)], expected, options)) return;
     ++trial.count;
     const Reference reference = scene.neighborhood.reference(s, view, feature);
     const float distance = descriptor_distance(found.descriptors, s, known.descriptors, feature);
@@ -108,6 +125,8 @@ void EvidenceOptions::describe(OptionList& list) {
   list.add("tolerance", tolerance, {0, 1}, "",
            "Search radius about a feature's predicted place, in object sizes.");
   list.add("min_tolerance_px", min_tolerance_px, {0.1, 100}, "px", "Smallest search radius.");
+  list.add("max_features", max_features, {10, 1000000}, "",
+           "Features of a view that are looked for in the scene, strongest first.");
   list.add("rivals", rivals, {1, 1000}, "",
            "A view feature's match must stand out against the so-many-th nearest scene feature.");
   list.add("max_rotation_deg", max_rotation_deg, {1, 180}, "deg",
@@ -126,8 +145,11 @@ Evidence gather_evidence(const cv::Matx33d& scene_from_view, float tolerance_px,
   const Features& known = scene.models.views()[static_cast<std::size_t>(view)].view->features;
   Evidence evidence;
   std::vector<Candidate> candidates;
-  for (int i = 0; i < static_cast<int>(known.size()); ++i) {
-    const Trial trial = try_feature(scene_from_view, tolerance_px, view, i, scene, taken, options);
+  const Limits limits(options);
+  const int count = std::min(options.max_features, static_cast<int>(known.size()));
+  for (int i = 0; i < count; ++i) {
+    const Trial trial =
+        try_feature(scene_from_view, tolerance_px, view, i, scene, taken, limits, options);
     if (trial.count == 0) continue;
     ++evidence.trials;
     if (trial.best.chance < 1) candidates.push_back(trial.best);

@@ -30,6 +30,7 @@ struct EvidenceOptions {
   double max_ratio = 1.0;   ///< guided matches: distance / reference distance
   double tolerance = 0.03;  ///< search radius about the predicted place, in object sizes
   double min_tolerance_px = 3;
+  int max_features = 4000;         ///< of a view, strongest first, that are looked for
   int rivals = 8;                  ///< how many scene features may resemble a view feature
   double max_rotation_deg = 30;    ///< rotation of a match against that of the pose
   double max_scale_octaves = 0.7;  ///< scale of a match against that of the pose

@@ -17,6 +17,10 @@ struct PresenceEvidence {
   double coverage = 0;    ///< share of the view's features in the part that was seen
   double distortion = 0;  ///< log of the largest over the smallest stretch of the pose
   Agreement agreement;    ///< `visible` 0: unknown
+  double found = 0;       ///< share of the view's features with a candidate that were found
+  /// Overlap (intersection over union) with what other views of the object say of the place,
+  /// 0 ... 1; negative: none says anything.
+  double consensus = -1;
 };
 
 struct Presence {

@@ -23,13 +23,16 @@ SceneGrid::SceneGrid(const Features& scene, cv::Size scene_size)
       columns_(scene_size.width / static_cast<int>(kCell) + 1),
       rows_(scene_size.height / static_cast<int>(kCell) + 1),
       starts_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0),
-      order_(scene.size()) {
+      placed_(scene.size()) {
+  if (!scene_.empty())
+    least_scale_ = std::ranges::min(scene_.keypoints, {}, &Keypoint::scale).scale;
   for (const auto& k : scene_.keypoints) ++starts_[cell(column(k.x), row(k.y)) + 1];
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   std::vector<int> next(starts_.begin(), starts_.end() - 1);
   for (std::size_t i = 0; i < scene_.size(); ++i) {
     const Keypoint& k = scene_.keypoints[i];
-    order_[static_cast<std::size_t>(next[cell(column(k.x), row(k.y))]++)] = static_cast<int>(i);
+    placed_[static_cast<std::size_t>(next[cell(column(k.x), row(k.y))]++)] = {
+        k.x, k.y, k.scale, std::cos(k.angle), std::sin(k.angle), static_cast<int>(i), k.laplacian};
   }
 }
 

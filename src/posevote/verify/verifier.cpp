@@ -160,11 +160,13 @@ PresenceEvidence measure(const Hypothesis& hypothesis, const SceneContext& scene
                         std::max(hypothesis.features_in_area, static_cast<int>(matched.size()));
   measured.coverage = coverage_of(matched, hypothesis, scene);
   measured.distortion = distortion_of(hypothesis, view);
+  measured.found = static_cast<double>(matched.size()) / std::max(1, hypothesis.evidence.trials);
   measured.agreement =
       measure_agreement(view.patch, hypothesis.scene_from_view, matched, scene.pyramid);
   return measured;
 }
 
+/// Everything but the last word, which `rate` has.
 void decide(Hypothesis& hypothesis, const SceneContext& scene, const VerifyOptions& options) {
   if (!hypothesis.rejected.empty()) return;
   const int inliers = static_cast<int>(hypothesis.evidence.inliers.size());
@@ -180,16 +182,7 @@ void decide(Hypothesis& hypothesis, const SceneContext& scene, const VerifyOptio
   hypothesis.features_in_area =
       features_in_area(hypothesis.view, hypothesis.scene_from_view, scene);
   hypothesis.measured = measure(hypothesis, scene);
-  hypothesis.presence = rate_presence(hypothesis.measured);
   hypothesis.stage = HypothesisStage::presence;
-  if (hypothesis.presence.probability() >=
-      least_probability(options.false_alarms_per_1000_images)) {
-    hypothesis.stage = HypothesisStage::accepted;
-    return;
-  }
-  hypothesis.rejected = hypothesis.presence.object < hypothesis.presence.place
-                            ? "a part of it agrees, but the rest looks like another thing"
-                            : "it may be there, but too little agrees to say where";
 }
 
 }  // namespace
@@ -225,7 +218,11 @@ Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
     return best;
   }
 
-  best = judge(cluster.view, proposal, scene, {}, options, 1.5);
+  // A glance at the strongest features tells most accidents from objects.
+  constexpr int kGlance = 800;
+  VerifyOptions glance = options;
+  glance.evidence.max_features = std::min(kGlance, options.evidence.max_features);
+  best = judge(cluster.view, proposal, scene, {}, glance, 1.5);
   // Refinement gains a few matches, not dozens: what is far from the goal now is given up.
   constexpr double kHopeless = 6;
   if (best.log10_false_alarms > kHopeless) {
@@ -238,10 +235,26 @@ Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
   return best;
 }
 
+void rate(Hypothesis& hypothesis, const VerifyOptions& options) {
+  if (!hypothesis.rejected.empty()) return;
+  hypothesis.presence = rate_presence(hypothesis.measured);
+  if (hypothesis.presence.probability() >=
+      least_probability(options.false_alarms_per_1000_images)) {
+    hypothesis.stage = HypothesisStage::accepted;
+    return;
+  }
+  hypothesis.rejected = hypothesis.presence.object < hypothesis.presence.place
+                            ? "a part of it agrees, but the rest looks like another thing"
+                            : "it may be there, but too little agrees to say where";
+}
+
 void reconsider(Hypothesis& hypothesis, const SceneContext& scene, const std::vector<char>& taken,
                 const VerifyOptions& options) {
+  const double consensus = hypothesis.measured.consensus;
   hypothesis = judge(hypothesis.view, hypothesis.scene_from_view, scene, taken, options);
   decide(hypothesis, scene, options);
+  hypothesis.measured.consensus = consensus;
+  rate(hypothesis, options);
 }
 
 }  // namespace posevote

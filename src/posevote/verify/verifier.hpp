@@ -46,9 +46,13 @@ struct Hypothesis {
 
 /// Finds the pose on which most of the cluster agrees, extends it by guided matching, refines it as
 /// a similarity, affine transform or homography, whichever leaves the fewest false alarms.
-/// Deterministic. `rejected` is set when no plausible pose was found or it could be chance.
+/// Deterministic. `rejected` is set when no plausible pose was found or it could be chance; else
+/// the hypothesis waits at the stage `presence` for `rate`.
 [[nodiscard]] Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
                                         const VerifyOptions& options);
+
+/// Gives the probability of what was measured, and accepts the hypothesis or says why not.
+void rate(Hypothesis& hypothesis, const VerifyOptions& options);
 
 /// f_t of Eq. 11: scene features in the bounding box of the projected outline.
 [[nodiscard]] int features_in_area(int view, const cv::Matx33d& scene_from_view,

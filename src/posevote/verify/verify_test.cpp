@@ -98,7 +98,7 @@ TEST(SceneGrid, FindsTheSameAsALoopOverAll) {
   for (int i = 0; i < 50; ++i) {
     const cv::Point2f centre(random.uniform(-50.F, 700.F), random.uniform(-50.F, 500.F));
     int found = 0, expected = 0;
-    grid.for_each_near(centre, 37, [&](int) { ++found; });
+    grid.for_each_near(centre, 37, [&](const PlacedKeypoint&) { ++found; });
     for (const auto& k : scene.keypoints)
       expected += std::hypot(k.x - centre.x, k.y - centre.y) <= 37;
     EXPECT_EQ(found, expected);
@@ -109,7 +109,7 @@ TEST(SceneGrid, BearsNaNAndEmptyScenes) {
   const Features none;
   const SceneGrid grid(none, {1, 1});
   int found = 0;
-  grid.for_each_near({std::nanf(""), 0}, 5, [&](int) { ++found; });
+  grid.for_each_near({std::nanf(""), 0}, 5, [&](const PlacedKeypoint&) { ++found; });
   EXPECT_EQ(found, 0);
   EXPECT_EQ(grid.count_in({0, 0, 10, 10}), 0);
 }

@@ -19,14 +19,18 @@ float wrap_angle(float angle) {
   return angle - kPi;
 }
 
-/// One of the bins that a vote falls into; compares dimension by dimension.
-struct Bin {
-  std::int32_t rotation, scale, y, x;
-  auto operator<=>(const Bin&) const = default;
-};
+/// One of the bins that a vote falls into, in one number: rotation, scale, y, x. Rotation and scale
+/// have at most 1000 bins, and positions are bounded by `is_sane`.
+std::uint64_t bin_of(int rotation, int scale, int y, int x) {
+  constexpr int kBits = 22, kOffset = 1 << (kBits - 1);
+  return (static_cast<std::uint64_t>(rotation) << (2 * kBits + 10)) |
+         (static_cast<std::uint64_t>(scale) << (2 * kBits)) |
+         (static_cast<std::uint64_t>(y + kOffset) << kBits) |
+         static_cast<std::uint64_t>(x + kOffset);
+}
 
 struct Entry {
-  Bin bin;
+  std::uint64_t bin;
   int match;
 };
 
@@ -83,7 +87,7 @@ class Grid {
     for (int r = r0; r <= r0 + 1; ++r)
       for (int y = y0; y <= y0 + 1; ++y)
         for (int x = x0; x <= x0 + 1; ++x)
-          entries.push_back({{modulo(r, options_.bins_rotation), scale_bin, y, x}, match});
+          entries.push_back({bin_of(modulo(r, options_.bins_rotation), scale_bin, y, x), match});
   }
 
   const VoteOptions& options_;

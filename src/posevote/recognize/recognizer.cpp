@@ -80,11 +80,18 @@ Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
   return detection;
 }
 
-void record_matches(const Neighborhood& neighborhood, const std::vector<Match>& matches,
+/// Nothing beyond its reference can match a scene feature, unless the ratio says otherwise.
+NeighborLists find_neighbors(const Index& index, const Features& scene, const MatchOptions& options,
+                             const std::vector<int>& groups) {
+  return options.max_ratio < 1 ? index.search_rivals(scene, options.neighbors, groups)
+                               : index.search(scene, options.neighbors);
+}
+
+void record_matches(const NeighborLists& neighbors, const std::vector<Match>& matches,
                     const std::vector<PoseCluster>& clusters, Trace& trace) {
-  for (std::size_t s = 0; s < neighborhood.neighbors().size(); ++s) {
+  for (std::size_t s = 0; s < neighbors.size(); ++s) {
     auto& views = trace.similar_views.emplace_back();
-    for (const Neighbor& neighbor : neighborhood.neighbors()[s]) views.push_back(neighbor.view);
+    for (const Neighbor& neighbor : neighbors[s]) views.push_back(neighbor.view);
   }
   trace.matches = matches;
   trace.clusters = clusters;
@@ -142,6 +149,7 @@ struct Recognizer::State {
     std::shared_ptr<const ModelSet> models;
     std::shared_ptr<const Index> index;
     LookAlikes look_alikes;
+    std::vector<int> groups;  ///< of views, by look_alikes
   };
 
   RecognizeOptions options;
@@ -160,8 +168,8 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
   Stopwatch watch;
 
   const ModelSet& models = *now.models;
-  const Neighborhood neighborhood(now.index->search(scene, options.match.neighbors), models,
-                                  now.look_alikes.table);
+  const Neighborhood neighborhood(find_neighbors(*now.index, scene, options.match, now.groups),
+                                  models, now.look_alikes.table);
   const auto matches = match_features(neighborhood, options.match);
   result.counts.matched = count_distinct(matches, [](const Match& m) { return m.scene; });
   result.time_ms.match = watch.lap();
@@ -174,7 +182,8 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
   SceneRivals rivals(models, scene, options.verify.evidence.rivals);
   const ScenePyramid pyramid(image);
   const SceneContext context{models, neighborhood, grid, matches, rivals, pyramid};
-  if (trace) record_matches(neighborhood, matches, clusters, *trace);
+  if (trace)
+    record_matches(now.index->search(scene, options.match.neighbors), matches, clusters, *trace);
   std::vector<Hypothesis> hypotheses;
   if (options.rule == "paper") {
     hypotheses = apply_paper_rule(clusters, context, options.paper);
@@ -243,8 +252,9 @@ void Recognizer::set_models(std::shared_ptr<const ModelSet> models) {
   LookAlikes look_alikes;
   if (state_->options.rule != "paper")  // which knows none
     look_alikes = find_look_alikes(models, *index, before ? &before->look_alikes : nullptr);
-  state_->snapshot.store(std::make_shared<const State::Snapshot>(
-      State::Snapshot{std::move(models), std::move(index), std::move(look_alikes)}));
+  auto groups = group_views(*models, look_alikes.table);
+  state_->snapshot.store(std::make_shared<const State::Snapshot>(State::Snapshot{
+      std::move(models), std::move(index), std::move(look_alikes), std::move(groups)}));
 }
 
 std::shared_ptr<const ModelSet> Recognizer::models() const {

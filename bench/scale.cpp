@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
+#include "perturb.hpp"
 #include "posevote/index/index.hpp"
 #include "scale_peers.hpp"
 #include "scale_plot.hpp"
@@ -82,20 +83,6 @@ void read_dataset(const std::filesystem::path& folder, const Extractor& extracto
     pictures.scenes.push_back(extract(tests[i]["image"].get<std::string>(), ""));
 }
 
-/// Another thing that looks similar: every descriptor moves by 0.5 in a random direction, farther
-/// than those of one point in two pictures differ.
-Features perturbed(const Features& features, cv::RNG& random) {
-  Features result{features.keypoints, features.descriptors.clone()};
-  for (int i = 0; i < result.descriptors.rows; ++i) {
-    cv::Mat row = result.descriptors.row(i);
-    cv::Mat noise(row.size(), row.type());
-    random.fill(noise, cv::RNG::NORMAL, 0, 0.5 / std::sqrt(double(row.cols)));
-    row += noise;
-    cv::normalize(row, row);
-  }
-  return result;
-}
-
 std::shared_ptr<const View> make_view(Features features) {
   auto view = std::make_shared<View>();
   view->outline = {{0, 0}, {1, 0}, {1, 1}};
@@ -114,7 +101,7 @@ std::vector<std::shared_ptr<const View>> make_views(const Pictures& pictures, in
   for (std::size_t i = 0; left > 0; ++i) {
     const std::size_t place = i * stride;
     const Features& source = pictures.views[place % pictures.views.size()];
-    Features features = place < pictures.views.size() ? source : perturbed(source, random);
+    Features features = place < pictures.views.size() ? source : bench::perturbed(source, random);
     const int count = std::min(left, static_cast<int>(features.size()));
     if (count == 0) continue;
     features.keypoints.resize(static_cast<std::size_t>(count));
@@ -216,7 +203,7 @@ Contestant ours(const Settings& settings, const Problem& problem, const std::str
   auto views = std::vector<std::shared_ptr<const View>>();
   for (const auto& entry : problem.models->views()) views.push_back(entry.view);
   cv::RNG random(2);
-  views.push_back(make_view(perturbed(views.front()->features, random)));
+  views.push_back(make_view(bench::perturbed(views.front()->features, random)));
   const auto grown = make_models(views);
   result.row.add_view_ms = 1e3 * seconds([&] { (void)make_index(grown, options, index.get()); });
   result.row.memory_mb = static_cast<double>(index->statistics().bytes) / (1 << 20);

@@ -8,6 +8,7 @@
 #include "posevote/image/inputs.hpp"
 #include "posevote/image/read_image.hpp"
 #include "posevote/json/recognition_json.hpp"
+#include "prepared_recognizer.hpp"
 #include "progress.hpp"
 #include "recognition_table.hpp"
 #include "settings.hpp"
@@ -78,7 +79,9 @@ void run(const BenchArguments& arguments) {
   if (pictures.empty())
     throw Error(ErrorCode::not_found, "database '" + store->location() +
                                           "' holds no pictures to time; teach an object first");
-  const Recognizer recognizer(store->load(), options);
+  const std::int64_t version = store->version();
+  const auto opened = make_recognizer(*store, version, store->load(), options);
+  const Recognizer& recognizer = *opened;
   static_cast<void>(recognizer.recognize(pictures.front()));  // warms up
   RecognitionTotals totals;
   ProgressBar progress("timing", pictures.size() * static_cast<std::size_t>(arguments.repeat));

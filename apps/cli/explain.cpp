@@ -9,6 +9,7 @@
 #include "posevote/recognize/explain.hpp"
 #include "posevote/recognize/trace.hpp"
 #include "posevote/render/draw_explanation.hpp"
+#include "prepared_recognizer.hpp"
 #include "settings.hpp"
 
 namespace posevote::cli {
@@ -45,13 +46,14 @@ void print_text(const Explanation& e) {
   std::printf("\n");
 }
 
-Recognizer make_recognizer(const ExplainArguments& arguments) {
+std::unique_ptr<Recognizer> open_recognizer(const ExplainArguments& arguments) {
   const auto store = open_database(arguments.database, Access::existing);
   RecognizeOptions options = make_preset(arguments.preset);
   choose_features(options.feature, store.get(), arguments.features);
   apply_settings(list_options(options), arguments.settings);
   require_features(options.feature, *store);
-  return Recognizer(store->load(), options);
+  const std::int64_t version = store->version();
+  return make_recognizer(*store, version, store->load(), options);
 }
 
 /// FILE for one object; FILE with the object's name before the ending for several.
@@ -63,7 +65,8 @@ std::string picture_path(const ExplainArguments& arguments, const std::string& o
 }
 
 void run(ExplainArguments arguments) {
-  const Recognizer recognizer = make_recognizer(arguments);
+  const auto opened = open_recognizer(arguments);
+  const Recognizer& recognizer = *opened;
   const cv::Mat image = load_picture(arguments.image).image;
   if (arguments.objects.empty())
     for (const ObjectModel& object : recognizer.models()->objects())

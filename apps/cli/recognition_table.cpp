@@ -72,13 +72,17 @@ std::string picture_table(const std::string& path, const RecognitionResult& resu
   time.rows.push_back({"total", fixed(result.time_ms.total, 1) + " ms", ""});
   return path + ", " + std::to_string(result.image_size.width) + " x " +
          std::to_string(result.image_size.height) + "\n" +
+         (result.incomplete ? "  out of time before all was looked at\n" : "") +
          (found.rows.empty() ? "  nothing recognised\n" : indented(found.to_text())) + "\n" +
          indented(time.to_text()) + "\n";
 }
 
-std::string frame_line(std::int64_t number, double time_s, const RecognitionResult& result) {
-  std::string line = "frame " + std::to_string(number) + ", " + fixed(time_s, 2) + " s, " +
-                     fixed(result.time_ms.total, 1) + " ms:";
+std::string frame_line(const Moment& moment, const RecognitionResult& result) {
+  std::string line = "frame " + std::to_string(moment.frame) + ", " + fixed(moment.time_s, 2) +
+                     " s, " + fixed(result.time_ms.total, 1) + " ms, latency " +
+                     fixed(moment.latency_ms, 0) + " ms";
+  if (moment.per_second > 0) line += ", " + fixed(moment.per_second, 1) + " per second";
+  line += result.incomplete ? " (out of time):" : ":";
   if (result.detections.empty()) line += " nothing";
   for (const Detection& detection : result.detections)
     line += "  " + name_of(detection) + " " + percent(detection.confidence, 0) + " at " +
@@ -96,14 +100,21 @@ void RecognitionTotals::add(const RecognitionTotals& other) {
   times_.insert(times_.end(), other.times_.begin(), other.times_.end());
   counts_.insert(counts_.end(), other.counts_.begin(), other.counts_.end());
   detections_ += other.detections_;
+  latencies_.insert(latencies_.end(), other.latencies_.begin(), other.latencies_.end());
+  stream_s_ += other.stream_s_;
   dropped_ += other.dropped_;
 }
 
 std::string RecognitionTotals::summary() const {
-  return std::to_string(times_.size()) + " pictures, " + std::to_string(detections_) +
-         " detections, median " + fixed(median(column(times_, &StageTimes::total)), 1) +
-         " ms per picture" +
-         (dropped_ > 0 ? ", " + std::to_string(dropped_) + " frames dropped" : "") + "\n";
+  std::string line = std::to_string(times_.size()) + " pictures, " + std::to_string(detections_) +
+                     " detections, median " + fixed(median(column(times_, &StageTimes::total)), 1) +
+                     " ms per picture";
+  if (!latencies_.empty())
+    line += ", " + fixed(static_cast<double>(latencies_.size()) / stream_s_, 1) +
+            " per second, latency " + fixed(median(latencies_), 0) +
+            " ms (95 %: " + fixed(quantile(latencies_, 0.95), 0) + " ms)";
+  if (dropped_ > 0) line += ", " + std::to_string(dropped_) + " frames dropped";
+  return line + "\n";
 }
 
 std::string RecognitionTotals::steps_table() const {

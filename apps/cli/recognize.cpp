@@ -1,5 +1,7 @@
 // posevote recognize: which taught objects are in these pictures, videos, cameras?
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -14,7 +16,9 @@
 #include "posevote/json/recognition_json.hpp"
 #include "posevote/render/annotate.hpp"
 #include "posevote/store/follower.hpp"
+#include "prepared_recognizer.hpp"
 #include "progress.hpp"
+#include "rate_meter.hpp"
 #include "recognition_table.hpp"
 #include "settings.hpp"
 
@@ -25,7 +29,7 @@ struct RecognizeArguments {
   std::vector<std::string> inputs, settings;
   std::string database, annotate, preset = "default", features;
   int every = 1;
-  bool json = false;
+  bool json = false, live = false;
 };
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -44,19 +48,19 @@ class LiveRecognizer {
   explicit LiveRecognizer(const RecognizeArguments& arguments)
       : store_(open_database(arguments.database, Access::existing)),
         version_(store_->version()),
-        recognizer_(store_->load(), options(arguments)) {
-    if (recognizer_.models()->views().empty())
+        recognizer_(make_recognizer(*store_, version_, store_->load(), options(arguments))) {
+    if (recognizer_->models()->views().empty())
       print_error("database '" + store_->location() +
                   "' holds no objects yet, so none will be recognised; see posevote teach --help");
   }
 
-  RecognitionResult recognize(const cv::Mat& image) { return recognizer_.recognize(image); }
+  RecognitionResult recognize(const cv::Mat& image) { return recognizer_->recognize(image); }
 
   /// From now on takes over what others teach as soon as they do, without holding up a frame.
   void follow() {
     if (follower_) return;
     follower_ = std::make_unique<Follower>(
-        store_, version_, [this](const auto& models) { recognizer_.set_models(models); });
+        store_, version_, [this](const auto& models) { recognizer_->set_models(models); });
   }
 
  private:
@@ -70,14 +74,8 @@ class LiveRecognizer {
 
   std::shared_ptr<ObjectStore> store_;
   std::int64_t version_;
-  Recognizer recognizer_;
+  std::unique_ptr<Recognizer> recognizer_;
   std::unique_ptr<Follower> follower_;
-};
-
-/// Where in a stream a result comes from.
-struct Moment {
-  std::int64_t frame = -1;  ///< -1: a single picture
-  double time_s = 0;
 };
 
 /// Prints results and writes annotated pictures.
@@ -88,13 +86,13 @@ class Reporter {
   }
 
   void report(const std::string& path, const cv::Mat& image, const RecognitionResult& result,
-              Moment moment = {}) {
+              const Moment& moment = {}) {
     if (arguments_.json)
       print_json(path, result, moment);
     else if (moment.frame < 0)
       std::cout << picture_table(path, result);
     else
-      std::cout << frame_line(moment.frame, moment.time_s, result);
+      std::cout << frame_line(moment, result);
     std::cout.flush();
     if (arguments_.annotate.empty()) return;
     const std::string file = annotated_path(path, moment);
@@ -108,17 +106,20 @@ class Reporter {
   }
 
  private:
-  static void print_json(const std::string& path, const RecognitionResult& result, Moment moment) {
+  static void print_json(const std::string& path, const RecognitionResult& result,
+                         const Moment& moment) {
     Json json = to_json(result, path);
     if (moment.frame >= 0) {
       json["frame"] = moment.frame;
       json["time_s"] = moment.time_s;
+      json["latency_ms"] = std::round(moment.latency_ms * 10) / 10;
+      json["per_second"] = std::round(moment.per_second * 100) / 100;
     }
     std::cout << to_line(json) << '\n';
   }
 
   /// FOLDER/stem-recognized.jpg; a second picture of that name gets a number.
-  std::string annotated_path(const std::string& path, Moment moment) {
+  std::string annotated_path(const std::string& path, const Moment& moment) {
     const std::filesystem::path folder(arguments_.annotate);
     std::string stem = std::filesystem::path(path).stem().string();
     std::ranges::replace(stem, ':', '-');
@@ -145,9 +146,11 @@ void recognize_picture(const Input& input, LiveRecognizer& recognizer, Reporter&
   reporter.report(input.path, image, result);
 }
 
-std::unique_ptr<FrameSource> open_stream(const Input& input) {
+std::unique_ptr<FrameSource> open_source(const Input& input, bool live) {
   const QuietCodecs quiet;
-  return input.kind == InputKind::camera ? open_camera(input.camera) : open_video(input.path);
+  if (input.kind == InputKind::camera) return open_camera(input.camera);
+  auto video = open_video(input.path);
+  return live ? newest_only(at_its_pace(std::move(video))) : std::move(video);
 }
 
 std::optional<Frame> next_frame(FrameSource& stream) {
@@ -155,23 +158,35 @@ std::optional<Frame> next_frame(FrameSource& stream) {
   return stream.next();
 }
 
-void recognize_stream(const Input& input, int every, LiveRecognizer& recognizer, Reporter& reporter,
-                      RecognitionTotals& totals) {
-  const auto stream = open_stream(input);
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void recognize_stream(const Input& input, const RecognizeArguments& arguments,
+                      LiveRecognizer& recognizer, Reporter& reporter, RecognitionTotals& totals) {
+  const auto stream = open_source(input, arguments.live);
   recognizer.follow();
   ProgressBar progress(input.path, static_cast<std::size_t>(stream->length()));
   RecognitionTotals here;
+  RateMeter rate;
+  const auto start = std::chrono::steady_clock::now();
   while (!interrupted) {
     const auto frame = next_frame(*stream);
     if (!frame) break;
     progress.advance(static_cast<std::size_t>(frame->dropped) + 1);
     here.add_dropped(frame->dropped);
-    if (frame->number % every != 0) continue;
+    if (frame->number % arguments.every != 0) continue;
     const RecognitionResult result = recognizer.recognize(frame->image);
     here.add(result);
     progress.clear();
-    reporter.report(input.path, frame->image, result, {frame->number, frame->time_s});
+    const double now_s = seconds_since(start);
+    rate.count(now_s);
+    const double latency_ms = 1000 * seconds_since(frame->arrived);
+    here.add_latency(latency_ms);
+    reporter.report(input.path, frame->image, result,
+                    {frame->number, frame->time_s, latency_ms, rate.per_second(now_s)});
   }
+  here.add_stream_time(seconds_since(start));
   if (here.pictures() == 0 && !interrupted)
     throw Error(ErrorCode::unreadable_image,
                 "cannot read video '" + input.path + "': it holds no frames");
@@ -208,7 +223,7 @@ void run(const RecognizeArguments& arguments, CommandContext& context) {
         if (input.kind == InputKind::image)
           recognize_picture(input, recognizer, reporter, totals);
         else
-          recognize_stream(input, arguments.every, recognizer, reporter, totals);
+          recognize_stream(input, arguments, recognizer, reporter, totals);
       });
       if (input.kind == InputKind::image) progress.advance();
     }
@@ -226,6 +241,8 @@ void add_recognize(CLI::App& app, CommandContext& context) {
                   "  posevote recognize pictures/ --annotate found/    draws what it found\n"
                   "  posevote recognize *.jpg --json > results.jsonl    one line for each picture\n"
                   "  posevote recognize clip.mp4 --every 10\n"
+                  "  posevote recognize clip.mp4 --live    as it plays: frames that come too "
+                  "early are dropped\n"
                   "  posevote recognize camera:0    until interrupted; always the newest frame");
   RecognizeArguments& a = *arguments;
   command
@@ -239,6 +256,9 @@ void add_recognize(CLI::App& app, CommandContext& context) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N")
       ->capture_default_str();
+  command->add_flag("--live", a.live,
+                    "Play videos at their own pace; frames that come while one is looked at are "
+                    "dropped, as with cameras");
   add_preset(*command, a.preset);
   add_features(*command, a.features);
   add_settings(*command, a.settings);

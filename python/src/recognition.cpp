@@ -174,7 +174,7 @@ py::tuple result_state(const RecognitionResult& r) {
       std::vector<double>{r.time_ms.detect, r.time_ms.match, r.time_ms.vote, r.time_ms.verify,
                           r.time_ms.total},
       std::vector<int>{r.counts.features, r.counts.matched, r.counts.clustered, r.counts.verified},
-      unknown_of(r));
+      unknown_of(r), r.incomplete);
 }
 
 SharedResult result_from(const py::tuple& state) {
@@ -190,6 +190,7 @@ SharedResult result_from(const py::tuple& state) {
     const auto [box, features] = region.cast<std::pair<std::array<float, 4>, int>>();
     r->unknown.push_back({{box[0], box[1], box[2], box[3]}, features});
   }
+  r->incomplete = state[6].cast<bool>();
   return r;
 }
 
@@ -208,6 +209,8 @@ void bind_result(py::module_& module) {
       .def_property_readonly("unknown", &unknown_of,
                              "Textured parts that no object explains, with the option `unknown`:\n"
                              "a list of ((x, y, width, height), features), most features first.")
+      .def_readonly("incomplete", &RecognitionResult::incomplete,
+                    "True when the option `deadline_ms` came before all was looked at.")
       .def_readonly("time_ms", &RecognitionResult::time_ms, "StageTimes, ms.")
       .def_readonly("counts", &RecognitionResult::counts, "StageCounts.")
       .def("__len__", [](const RecognitionResult& r) { return r.detections.size(); })

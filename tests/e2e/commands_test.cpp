@@ -156,6 +156,19 @@ TEST_F(Commands, VideosGiveALineForEachFrame) {
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(Json::parse(lines[1])["frame"], 2);
   EXPECT_EQ(Json::parse(lines[1])["detections"][0]["object"], "poster");
+  EXPECT_GT(Json::parse(lines[1])["latency_ms"], 0);
+}
+
+TEST_F(Commands, LiveVideosNeverMissTheLastFrame) {
+  teach_poster();
+  {
+    cv::VideoWriter writer(path("clip.avi"), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 100,
+                           {320, 240});
+    for (int i = 0; i < 30; ++i) writer.write(cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(i)));
+  }
+  const auto lines = run({"recognize", path("clip.avi"), "--live", "--json"}).lines();
+  ASSERT_GE(lines.size(), 1U);
+  EXPECT_EQ(Json::parse(lines.back())["frame"], 29);
 }
 
 TEST_F(Commands, AnnotatedPicturesAreWritten) {

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "live/camera.hpp"
-#include "live/rate_meter.hpp"
+#include "rate_meter.hpp"
 #include "studio/catalogue.hpp"
 #include "studio/metrics.hpp"
 

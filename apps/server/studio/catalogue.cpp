@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "prepared_recognizer.hpp"
+
 namespace posevote::server {
 
 Catalogue::Catalogue(std::unique_ptr<ObjectStore> store, const Settings& settings, Bell& bell)
@@ -33,7 +35,7 @@ void Catalogue::refresh() {
       options.feature.signature() == recognizer_->options().feature.signature()) {
     recognizer_->set_models(models);
   } else {
-    auto made = std::make_shared<Recognizer>(models, options);
+    std::shared_ptr<Recognizer> made = make_recognizer(*store_, version, models, options);
     const std::lock_guard lock(mutex_);
     recognizer_ = std::move(made);
   }

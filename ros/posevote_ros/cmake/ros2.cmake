@@ -15,8 +15,10 @@ add_library(posevote_ros_component SHARED
   ros2/teach_action.cpp)
 target_include_directories(posevote_ros_component PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(posevote_ros_component PRIVATE posevote_ros_logic)
-ament_target_dependencies(posevote_ros_component ${used})
+ament_target_dependencies(posevote_ros_component PUBLIC ${used})
 target_compile_options(posevote_ros_component PRIVATE -Wall -Wextra)
+# The library posevote may be anywhere.
+set_target_properties(posevote_ros_component PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 rclcpp_components_register_node(posevote_ros_component
   PLUGIN "posevote::ros2::Node" EXECUTABLE posevote_node)
 

@@ -249,7 +249,7 @@ std::string ObjectRecognition::save(const std::string& path) const {
     beside.replace_filename(beside.stem().string() + "-" + timestamp() + ".db");
     target = beside.string();
   }
-  (void)export_objects(*store_, target, {});
+  (void)save_copy(*store_, target);
   return target;
 }
 

@@ -81,8 +81,8 @@ class ObjectRecognition {
   void remove(const std::string& object, const std::string& view);
   /// The object stays active if it was.
   void rename(const std::string& from, const std::string& to);
-  /// Copies all objects into a new file; returns its path. "": beside the database's file,
-  /// with the time (UTC) in its name.
+  /// Copies all objects and impostors into a new file; returns its path. "": beside the database's
+  /// file, with the time (UTC) in its name.
   std::string save(const std::string& path) const;
   TransferResult export_to(const std::string& path, const std::vector<std::string>& names,
                            bool overwrite) const;

@@ -57,14 +57,19 @@ void Node::advertise() {
 }
 
 Node::CallbackReturn Node::on_activate(const rclcpp_lifecycle::State& state) {
-  LifecycleNode::on_activate(state);
+  try {
+    (void)recognition_->refresh();
+    posevote_msgs::msg::DatabaseInfo info;
+    info.header.stamp = now();
+    logic::fill_database(info, recognition_->database());
+    LifecycleNode::on_activate(state);
+    database_->publish(info);
+  } catch (const std::exception& error) {
+    RCLCPP_ERROR(get_logger(), "%s", error.what());
+    return CallbackReturn::FAILURE;
+  }
   camera_ = std::make_unique<CameraInput>(*this, recognition_->options().transport,
                                           [this](const Frame& frame) { receive(frame); });
-  (void)recognition_->refresh();
-  posevote_msgs::msg::DatabaseInfo info;
-  info.header.stamp = now();
-  logic::fill_database(info, recognition_->database());
-  database_->publish(info);
   return CallbackReturn::SUCCESS;
 }
 

@@ -1,5 +1,6 @@
 #include "posevote/image/frame_source.hpp"
 
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -7,7 +8,6 @@
 
 #include "posevote/core/error.hpp"
 #ifdef POSEVOTE_WITH_VIDEO
-#include <chrono>
 #include <filesystem>
 #include <opencv2/videoio.hpp>
 #endif
@@ -18,7 +18,7 @@ namespace {
 class NewestOnly : public FrameSource {
  public:
   explicit NewestOnly(std::unique_ptr<FrameSource> source)
-      : source_(std::move(source)), reader_([this] { read(); }) {}
+      : source_(std::move(source)), length_(source_->length()), reader_([this] { read(); }) {}
 
   ~NewestOnly() override {
     {
@@ -42,6 +42,8 @@ class NewestOnly : public FrameSource {
     return frame;
   }
 
+  [[nodiscard]] std::int64_t length() const override { return length_; }
+
  private:
   void read() {
     try {
@@ -61,6 +63,7 @@ class NewestOnly : public FrameSource {
   }
 
   std::unique_ptr<FrameSource> source_;
+  std::int64_t length_;
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::optional<Frame> newest_;
@@ -71,9 +74,30 @@ class NewestOnly : public FrameSource {
   std::thread reader_;  // the last member: it uses the others
 };
 
-#ifdef POSEVOTE_WITH_VIDEO
-
 using Clock = std::chrono::steady_clock;
+
+class AtItsPace : public FrameSource {
+ public:
+  explicit AtItsPace(std::unique_ptr<FrameSource> video) : video_(std::move(video)) {}
+
+  std::optional<Frame> next() override {
+    std::optional<Frame> frame = video_->next();
+    if (!frame) return frame;
+    if (!start_) start_ = Clock::now();
+    frame->arrived = *start_ + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(frame->time_s));
+    std::this_thread::sleep_until(frame->arrived);
+    return frame;
+  }
+
+  [[nodiscard]] std::int64_t length() const override { return video_->length(); }
+
+ private:
+  std::unique_ptr<FrameSource> video_;
+  std::optional<Clock::time_point> start_;
+};
+
+#ifdef POSEVOTE_WITH_VIDEO
 
 class VideoSource : public FrameSource {
  public:
@@ -87,6 +111,7 @@ class VideoSource : public FrameSource {
     frame.image = frame.image.clone();
     frame.number = count_++;
     frame.time_s = capture_.get(cv::CAP_PROP_POS_MSEC) / 1000;  // of the frame just read
+    frame.arrived = Clock::now();
     return frame;
   }
 
@@ -107,11 +132,11 @@ class CameraSource : public FrameSource {
     Frame frame;
     if (!capture_.read(frame.image) || frame.image.empty())
       throw Error(ErrorCode::io, name_ + " gives no more frames; is it still connected?");
-    const Clock::time_point now = Clock::now();
-    if (count_ == 0) start_ = now;
+    frame.arrived = Clock::now();
+    if (count_ == 0) start_ = frame.arrived;
     frame.image = frame.image.clone();
     frame.number = count_++;
-    frame.time_s = std::chrono::duration<double>(now - start_).count();
+    frame.time_s = std::chrono::duration<double>(frame.arrived - start_).count();
     return frame;
   }
 
@@ -140,6 +165,10 @@ std::string without_password(const std::string& url) {
   const std::size_t host = scheme + 3;
   const std::size_t at = url.substr(0, url.find('/', host)).rfind('@');
   return at == std::string::npos || at < host ? url : url.substr(0, host) + url.substr(at + 1);
+}
+
+std::unique_ptr<FrameSource> at_its_pace(std::unique_ptr<FrameSource> video) {
+  return std::make_unique<AtItsPace>(std::move(video));
 }
 
 std::unique_ptr<FrameSource> newest_only(std::unique_ptr<FrameSource> source) {

@@ -1,6 +1,7 @@
 // Frames one after the other: of a video file, or the newest one of a camera.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -14,6 +15,7 @@ struct Frame {
   std::int64_t number = 0;   ///< counted by the source from 0, dropped frames included
   std::int64_t dropped = 0;  ///< frames left out since the one before
   double time_s = 0;         ///< since the first frame: video time, or arrival for cameras
+  std::chrono::steady_clock::time_point arrived;  ///< when it could first have been looked at
 };
 
 /// Used by one thread at a time.
@@ -48,5 +50,8 @@ class FrameSource {
 /// Reads `source` in a thread of its own and hands out its newest frame only. Ends (or throws) when
 /// `source` does, after the newest frame was handed out.
 [[nodiscard]] std::unique_ptr<FrameSource> newest_only(std::unique_ptr<FrameSource> source);
+
+/// The frames of a video no sooner than they are due when it is played: as a camera gives them.
+[[nodiscard]] std::unique_ptr<FrameSource> at_its_pace(std::unique_ptr<FrameSource> video);
 
 }  // namespace posevote

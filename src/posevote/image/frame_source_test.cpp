@@ -103,6 +103,35 @@ TEST(NewestOnly, CanBeLeftWhileTheSourceGoesOn) {
   EXPECT_TRUE(source->next());
 }
 
+/// Frames of a video of 100 per second that is read at once.
+class QuickSource : public FrameSource {
+ public:
+  std::optional<Frame> next() override {
+    if (count_ == 4) return std::nullopt;
+    Frame frame;
+    frame.number = count_;
+    frame.time_s = 0.01 * static_cast<double>(count_++);
+    return frame;
+  }
+
+ private:
+  std::int64_t count_ = 0;
+};
+
+TEST(AtItsPace, NoFrameComesBeforeItIsDue) {
+  const auto source = at_its_pace(std::make_unique<QuickSource>());
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 4; ++i) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame);
+    const auto now = std::chrono::steady_clock::now();
+    EXPECT_EQ(frame->number, i);
+    EXPECT_GE(now, frame->arrived);
+    EXPECT_GE(now - start, std::chrono::milliseconds(10 * i));
+  }
+  EXPECT_FALSE(source->next());
+}
+
 #ifdef POSEVOTE_WITH_VIDEO
 
 class Video : public testing::Test {

@@ -20,11 +20,6 @@ float rounding_length(int dimension) {
   return std::sqrt(static_cast<float>(dimension)) / 2;
 }
 
-/// round(v), in [-127, 127], plus 128.
-int offset_code(float v) {
-  return static_cast<int>(std::clamp(v + 128.5F, 1.0F, 255.0F));  // positive: cutting it off rounds
-}
-
 /// Is the sum of the magnitudes a number?
 bool is_finite(const float* row, std::size_t count) {
   return std::isfinite(sum_over(count, [=](std::size_t d) { return std::abs(row[d]); }));
@@ -79,7 +74,7 @@ float Coder::encode_taught(const float* row, const float* center, float scale, s
     const std::size_t first = quad * 4;
     for (std::size_t i = 0; i < std::min<std::size_t>(4, size - first); ++i) {
       const float v = difference(first + i);
-      const int code = offset_code(v * factor);
+      const int code = round_to_code(v * factor) + 128;
       const float error = v - static_cast<float>(code - 128) * step;
       residual += error * error;
       codes[i] = static_cast<std::uint8_t>(code);
@@ -106,16 +101,13 @@ QueryCode Coder::encode_query(const float* row, std::int8_t* code) const {
   const float pair = largest_pair(row, size);
   // Rounding adds up to 1 to the sum of a pair, which may be 128.
   const float scale = pair > 0 ? std::min(query_scale_, 127.0F / pair) : query_scale_;
-  const float step = 1 / scale;
-  for (std::size_t d = 0; d < size; ++d)
-    code[d] = static_cast<std::int8_t>(offset_code(row[d] * scale) - 128);
   std::fill(code + size, code + quads_ * 4, std::int8_t{0});
-  const auto error = [=](std::size_t d) { return row[d] - static_cast<float>(code[d]) * step; };
+  const Rounding rounding = encode(row, size, scale, code);
   QueryCode result;
   result.scale = scale;
-  result.residual = std::sqrt(sum_over(size, [&](std::size_t d) { return error(d) * error(d); }));
-  result.lost = sum_over(size, [&](std::size_t d) { return error(d) * row[d]; });
-  for (std::size_t d = 0; d < size; ++d) result.offset += 128 * code[d];
+  result.residual = std::sqrt(rounding.squares);
+  result.lost = rounding.lost;
+  result.offset = 128 * rounding.sum;
   return result;
 }
 

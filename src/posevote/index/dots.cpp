@@ -28,6 +28,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using scalar::distances;
 using scalar::dots;
+using scalar::encode;
 using scalar::find_at_least;
 using scalar::kth_largest;
 using scalar::scan;
@@ -204,10 +205,16 @@ HWY_INLINE std::uint32_t bits_at_least(const std::int16_t* values, hn::Vec<Lanes
 std::size_t find_at_least(const std::int16_t* values, std::size_t count, std::int16_t limit,
                           std::uint32_t* positions) {
   const auto limits = hn::Set(kLanes, limit);
+  constexpr std::size_t kBits = 64;  // one loop over many bits: its end is guessed wrong less often
   std::size_t found = 0;
-  for (std::size_t i = 0; i < count; i += kBlockLanes)
-    for (std::uint32_t bits = bits_at_least(values + i, limits); bits != 0; bits &= bits - 1)
-      positions[found++] = static_cast<std::uint32_t>(i + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+  for (std::size_t first = 0; first < count; first += kBits) {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < HWY_MIN(kBits, count - first); i += kBlockLanes)
+      bits |= static_cast<std::uint64_t>(bits_at_least(values + first + i, limits)) << i;
+    for (; bits != 0; bits &= bits - 1)
+      positions[found++] =
+          static_cast<std::uint32_t>(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
+  }
   return found;
 }
 
@@ -223,7 +230,17 @@ HWY_INLINE std::size_t count_at_least(const std::int16_t* values, std::size_t co
   return count - static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(kLanes, less)));
 }
 
-/// Bisection by counting: exact, and with few branches that depend on the values.
+/// Between `low`, which `enough` values reach, and `high`, which `few` reach: about where k do, as
+/// numbers of values fall exponentially near their largest.
+HWY_INLINE int guess_kth(int low, int high, std::size_t enough, std::size_t few, std::size_t k) {
+  const float all =
+      std::log2((static_cast<float>(enough) + 0.5F) / (static_cast<float>(few) + 0.5F));
+  const float part = std::log2((static_cast<float>(enough) + 0.5F) / static_cast<float>(k));
+  const int guess = low + static_cast<int>(static_cast<float>(high - low) * part / all);
+  return HWY_MIN(HWY_MAX(guess, low + 1), high - 1);
+}
+
+/// By counting values above guesses: exact, and with few branches that depend on the values.
 std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::size_t k) {
   if (count > 32767) return scalar::kth_largest(values, count, k);
   auto smallest = hn::LoadU(kLanes, values), largest = smallest;
@@ -235,11 +252,12 @@ std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::siz
   // At least k values are >= low, fewer are >= high.
   int low = hn::GetLane(hn::MinOfLanes(kLanes, smallest));
   int high = hn::GetLane(hn::MaxOfLanes(kLanes, largest)) + 1;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    const std::size_t enough = count_at_least(values, count, middle);
-    (enough >= k ? low : high) = middle;
-    if (enough == k) break;
+  std::size_t enough = count, few = 0;
+  for (bool halve = false; high - low > 1 && enough > k; halve = !halve) {
+    const int middle = halve ? (low + high) / 2 : guess_kth(low, high, enough, few, k);
+    const std::size_t reach = count_at_least(values, count, middle);
+    (reach >= k ? low : high) = middle;
+    (reach >= k ? enough : few) = reach;
   }
   // The smallest of those that are at least `low`.
   const auto limits = hn::Set(kLanes, static_cast<std::int16_t>(low));
@@ -252,35 +270,43 @@ std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::siz
 }
 
 template <std::size_t Q>
-void scan_with(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
-               const ScanQuery* queries) {
+std::uint32_t scan_with(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+                        const ScanQuery* queries) {
   const std::int8_t* codes[Q];
   std::int32_t corrections[Q];
   for (std::size_t q = 0; q < Q; ++q) {
     codes[q] = queries[q].code;
     corrections[q] = queries[q].offset;
   }
+  std::uint32_t some[Q] = {};
   for (std::size_t b = 0; b < block_count; ++b) {
     HWY_ALIGN std::int16_t products[Q * kBlockLanes];
     dots_of_block<Q>(blocks + b * quads * kRow, quads, codes, corrections, products, kBlockLanes);
     for (std::size_t q = 0; q < Q; ++q) {
       const std::int16_t* own = products + q * kBlockLanes;
-      queries[q].found[b] =
-          static_cast<std::uint16_t>(bits_at_least(own, hn::Set(kLanes, queries[q].limit)));
-      std::memcpy(queries[q].products + b * kBlockLanes, own, kBlockLanes * sizeof *own);
+      const std::uint32_t bits = bits_at_least(own, hn::Set(kLanes, queries[q].limit));
+      queries[q].found[b] = static_cast<std::uint16_t>(bits);
+      some[q] |= bits;
+      if (bits != 0)
+        std::memcpy(queries[q].products + b * kBlockLanes, own, kBlockLanes * sizeof *own);
     }
   }
+  std::uint32_t result = 0;
+  for (std::size_t q = 0; q < Q; ++q) result |= (some[q] != 0 ? 1U : 0U) << q;
+  return result;
 }
 
-void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
-          const ScanQuery* queries, std::size_t query_count) {
+std::uint32_t scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+                   const ScanQuery* queries, std::size_t query_count) {
+  std::uint32_t some = 0;
   for (std::size_t q = 0; q < query_count; q += kAtOnce) {
     const std::size_t count = HWY_MIN(query_count - q, kAtOnce);
-    if (count == 1) scan_with<1>(blocks, block_count, quads, queries + q);
-    if (count == 2) scan_with<2>(blocks, block_count, quads, queries + q);
-    if (count == 3) scan_with<3>(blocks, block_count, quads, queries + q);
-    if (count == 4) scan_with<4>(blocks, block_count, quads, queries + q);
+    if (count == 1) some |= scan_with<1>(blocks, block_count, quads, queries + q) << q;
+    if (count == 2) some |= scan_with<2>(blocks, block_count, quads, queries + q) << q;
+    if (count == 3) some |= scan_with<3>(blocks, block_count, quads, queries + q) << q;
+    if (count == 4) some |= scan_with<4>(blocks, block_count, quads, queries + q) << q;
   }
+  return some;
 }
 
 /// Parts as in `sum_over`, so that the rounding is the same.
@@ -310,6 +336,54 @@ void distances(const float* query, const float* const* rows, std::size_t count,
   }
 }
 
+/// Parts as in `sum_over`.
+Rounding encode(const float* row, std::size_t dimension, float scale, std::int8_t* code) {
+  using Floats = hn::CappedTag<float, kSumParts>;
+  constexpr Floats floats;
+  constexpr hn::Rebind<std::int32_t, Floats> ints;
+  constexpr hn::Rebind<std::int16_t, Floats> shorts;
+  constexpr hn::Rebind<std::int8_t, Floats> bytes;
+  constexpr std::size_t kWidth = hn::MaxLanes(floats);
+  constexpr std::size_t kSums = kSumParts / kWidth;
+  const float step = 1 / scale;
+  hn::Vec<Floats> squares[kSums], lost[kSums];
+  auto sum = hn::Zero(ints);
+  for (std::size_t s = 0; s < kSums; ++s) squares[s] = lost[s] = hn::Zero(floats);
+  std::size_t d = 0;
+  for (; d + kSumParts <= dimension; d += kSumParts)
+    for (std::size_t s = 0; s < kSums; ++s) {
+      const auto value = hn::LoadU(floats, row + d + s * kWidth);
+      const auto scaled = hn::Add(hn::Mul(value, hn::Set(floats, scale)), hn::Set(floats, 128.5F));
+      const auto cut = hn::Min(hn::Max(scaled, hn::Set(floats, 1.0F)), hn::Set(floats, 255.0F));
+      const auto whole = hn::Sub(hn::ConvertTo(ints, cut), hn::Set(ints, 128));
+      hn::StoreU(hn::DemoteTo(bytes, hn::DemoteTo(shorts, whole)), bytes, code + d + s * kWidth);
+      const auto error =
+          hn::Sub(value, hn::Mul(hn::ConvertTo(floats, whole), hn::Set(floats, step)));
+      squares[s] = hn::Add(squares[s], hn::Mul(error, error));
+      lost[s] = hn::Add(lost[s], hn::Mul(error, value));
+      sum = hn::Add(sum, whole);
+    }
+  float square_parts[kSumParts], lost_parts[kSumParts];
+  for (std::size_t s = 0; s < kSums; ++s) {
+    hn::StoreU(squares[s], floats, square_parts + s * kWidth);
+    hn::StoreU(lost[s], floats, lost_parts + s * kWidth);
+  }
+  Rounding result;
+  result.sum = hn::GetLane(hn::SumOfLanes(ints, sum));
+  for (; d < dimension; ++d) {
+    code[d] = round_to_code(row[d] * scale);
+    const float error = row[d] - static_cast<float>(code[d]) * step;
+    result.squares += error * error;
+    result.lost += error * row[d];
+    result.sum += code[d];
+  }
+  for (std::size_t i = 0; i < kSumParts; ++i) {
+    result.squares += square_parts[i];
+    result.lost += lost_parts[i];
+  }
+  return result;
+}
+
 #endif  // HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
@@ -325,6 +399,7 @@ namespace posevote {
 namespace {
 HWY_EXPORT(distances);
 HWY_EXPORT(dots);
+HWY_EXPORT(encode);
 HWY_EXPORT(find_at_least);
 HWY_EXPORT(kth_largest);
 HWY_EXPORT(scan);
@@ -344,14 +419,18 @@ std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::siz
   return HWY_DYNAMIC_DISPATCH(kth_largest)(values, count, k);
 }
 
-void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
-          const ScanQuery* queries, std::size_t query_count) {
-  HWY_DYNAMIC_DISPATCH(scan)(blocks, block_count, quads, queries, query_count);
+std::uint32_t scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+                   const ScanQuery* queries, std::size_t query_count) {
+  return HWY_DYNAMIC_DISPATCH(scan)(blocks, block_count, quads, queries, query_count);
 }
 
 void distances(const float* query, const float* const* rows, std::size_t count,
                std::size_t dimension, float* results) {
   HWY_DYNAMIC_DISPATCH(distances)(query, rows, count, dimension, results);
+}
+
+Rounding encode(const float* row, std::size_t dimension, float scale, std::int8_t* code) {
+  return HWY_DYNAMIC_DISPATCH(encode)(row, dimension, scale, code);
 }
 
 }  // namespace posevote

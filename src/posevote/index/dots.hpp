@@ -35,9 +35,11 @@ struct ScanQuery {
   std::uint16_t* found;     ///< for each block: bit i tells whether product i is wanted
 };
 
-/// As `dots`, and says which products are large enough.
-void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
-          const ScanQuery* queries, std::size_t query_count);
+/// As `dots`, and says which products are large enough. Bit q of the result: query q has some;
+/// without any its `products` are not written.
+[[nodiscard]] std::uint32_t scan(const std::uint8_t* blocks, std::size_t block_count,
+                                 std::size_t quads, const ScanQuery* queries,
+                                 std::size_t query_count);
 
 /// Writes the positions of all values >= limit in rising order to `positions` (room for `count`)
 /// and returns their number. `count` is a multiple of kBlockLanes.
@@ -53,19 +55,33 @@ void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads
 void distances(const float* query, const float* const* rows, std::size_t count,
                std::size_t dimension, float* results);
 
+/// What the code of a row is made of, and what it loses.
+struct Rounding {
+  float squares = 0;     ///< of (row - what the code stands for)
+  float lost = 0;        ///< product of (row - what the code stands for) and row
+  std::int32_t sum = 0;  ///< of the code
+};
+
+/// code[d] = round(row[d] * scale), at least -127 and at most 127, for finite rows.
+[[nodiscard]] Rounding encode(const float* row, std::size_t dimension, float scale,
+                              std::int8_t* code);
+
 /// The same in plain C++: what the kernels are compared with, and what a build without Highway
 /// runs.
 namespace scalar {
 void dots(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
           const QueryGroup& queries, std::int16_t* products, std::size_t stride);
-void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
-          const ScanQuery* queries, std::size_t query_count);
+[[nodiscard]] std::uint32_t scan(const std::uint8_t* blocks, std::size_t block_count,
+                                 std::size_t quads, const ScanQuery* queries,
+                                 std::size_t query_count);
 [[nodiscard]] std::size_t find_at_least(const std::int16_t* values, std::size_t count,
                                         std::int16_t limit, std::uint32_t* positions);
 [[nodiscard]] std::int16_t kth_largest(const std::int16_t* values, std::size_t count,
                                        std::size_t k);
 void distances(const float* query, const float* const* rows, std::size_t count,
                std::size_t dimension, float* results);
+[[nodiscard]] Rounding encode(const float* row, std::size_t dimension, float scale,
+                              std::int8_t* code);
 }  // namespace scalar
 
 }  // namespace posevote

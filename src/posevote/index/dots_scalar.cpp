@@ -37,16 +37,20 @@ std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::siz
   return *kth;
 }
 
-void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
-          const ScanQuery* queries, std::size_t query_count) {
+std::uint32_t scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+                   const ScanQuery* queries, std::size_t query_count) {
+  std::uint32_t some = 0;
   for (const ScanQuery* query = queries; query != queries + query_count; ++query) {
     dots(blocks, block_count, quads, {{query->code}, 1}, query->products,
          block_count * kBlockLanes);
     std::fill(query->found, query->found + block_count, std::uint16_t{0});
     for (std::size_t i = 0; i < block_count * kBlockLanes; ++i)
-      if (query->products[i] >= query->limit)
+      if (query->products[i] >= query->limit) {
         query->found[i / kBlockLanes] |= static_cast<std::uint16_t>(1U << i % kBlockLanes);
+        some |= 1U << (query - queries);
+      }
   }
+  return some;
 }
 
 void distances(const float* query, const float* const* rows, std::size_t count,
@@ -56,6 +60,19 @@ void distances(const float* query, const float* const* rows, std::size_t count,
     results[i] = std::sqrt(sum_over(
         dimension, [=](std::size_t d) { return (query[d] - row[d]) * (query[d] - row[d]); }));
   }
+}
+
+Rounding encode(const float* row, std::size_t dimension, float scale, std::int8_t* code) {
+  const float step = 1 / scale;
+  const auto error = [=](std::size_t d) { return row[d] - static_cast<float>(code[d]) * step; };
+  Rounding result;
+  for (std::size_t d = 0; d < dimension; ++d) {
+    code[d] = round_to_code(row[d] * scale);
+    result.sum += code[d];
+  }
+  result.squares = sum_over(dimension, [=](std::size_t d) { return error(d) * error(d); });
+  result.lost = sum_over(dimension, [=](std::size_t d) { return error(d) * row[d]; });
+  return result;
 }
 
 }  // namespace scalar
@@ -71,9 +88,9 @@ std::size_t find_at_least(const std::int16_t* values, std::size_t count, std::in
   return scalar::find_at_least(values, count, limit, positions);
 }
 
-void scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
-          const ScanQuery* queries, std::size_t query_count) {
-  scalar::scan(blocks, block_count, quads, queries, query_count);
+std::uint32_t scan(const std::uint8_t* blocks, std::size_t block_count, std::size_t quads,
+                   const ScanQuery* queries, std::size_t query_count) {
+  return scalar::scan(blocks, block_count, quads, queries, query_count);
 }
 
 std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::size_t k) {
@@ -83,6 +100,10 @@ std::int16_t kth_largest(const std::int16_t* values, std::size_t count, std::siz
 void distances(const float* query, const float* const* rows, std::size_t count,
                std::size_t dimension, float* results) {
   scalar::distances(query, rows, count, dimension, results);
+}
+
+Rounding encode(const float* row, std::size_t dimension, float scale, std::int8_t* code) {
+  return scalar::encode(row, dimension, scale, code);
 }
 #endif
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -144,10 +145,16 @@ TEST(Scan, AgreesWithScalarCodeOnEveryTarget) {
   for_each_target([&] {
     for (std::size_t count = 0; count <= 9; ++count) {
       std::vector<Answer> expected(count), found(count);
-      scalar::scan(problem.codes.data(), kBlocks, 16, queries(expected).data(), count);
-      scan(problem.codes.data(), kBlocks, 16, queries(found).data(), count);
+      const std::uint32_t some =
+          scalar::scan(problem.codes.data(), kBlocks, 16, queries(expected).data(), count);
+      EXPECT_EQ(scan(problem.codes.data(), kBlocks, 16, queries(found).data(), count), some);
       for (std::size_t q = 0; q < count; ++q) {
-        EXPECT_EQ(found[q].products, expected[q].products) << q << " of " << count;
+        EXPECT_EQ(some >> q & 1U,
+                  std::ranges::any_of(expected[q].found, std::identity()) ? 1U : 0U);
+        for (std::size_t i = 0; i < expected[q].products.size(); ++i) {
+          if (expected[q].found[i / kBlockLanes] == 0) continue;
+          EXPECT_EQ(found[q].products[i], expected[q].products[i]) << q << " of " << count;
+        }
         EXPECT_EQ(found[q].found, expected[q].found) << q << " of " << count;
       }
     }
@@ -166,7 +173,7 @@ TEST(Scan, FindsProductsAtTheLimitOnly) {
       std::uint16_t found = 7;
       const ScanQuery query{problem.queries[0].data(), offset,
                             static_cast<std::int16_t>(largest + more), products, &found};
-      scan(problem.codes.data(), 1, 4, &query, 1);
+      EXPECT_EQ(scan(problem.codes.data(), 1, 4, &query, 1), more == 1 ? 0U : 1U);
       EXPECT_EQ(found == 0, more == 1);
     }
   });
@@ -191,6 +198,27 @@ TEST(Distances, AreTheSameNumbersOnEveryTarget) {
       float found[3];
       distances(rows[0].data(), pointers, 3, dimension, found);
       for (int i = 0; i < 3; ++i) EXPECT_EQ(found[i], expected[i]) << dimension;
+    });
+  }
+}
+
+TEST(Encode, GivesTheSameNumbersOnEveryTarget) {
+  std::mt19937 random(6);
+  std::normal_distribution<float> normal;
+  for (const std::size_t dimension : {1, 15, 16, 36, 64, 131}) {
+    std::vector<float> row(dimension);
+    for (float& v : row) v = normal(random);
+    row[0] = 5;  // beyond what a code can hold
+    std::vector<std::int8_t> codes(dimension), expected_codes(dimension);
+    const Rounding expected = scalar::encode(row.data(), dimension, 50, expected_codes.data());
+    EXPECT_EQ(expected_codes[0], 127);
+    EXPECT_NEAR(expected_codes.back() / 50.0, std::min(row.back(), 2.54F), 0.0101);
+    for_each_target([&] {
+      const Rounding found = encode(row.data(), dimension, 50, codes.data());
+      EXPECT_EQ(codes, expected_codes);
+      EXPECT_EQ(found.squares, expected.squares) << dimension;
+      EXPECT_EQ(found.lost, expected.lost) << dimension;
+      EXPECT_EQ(found.sum, expected.sum);
     });
   }
 }

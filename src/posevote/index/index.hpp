@@ -43,6 +43,12 @@ class Index {
   /// Error{feature_mismatch} when the scene's descriptors have another length.
   [[nodiscard]] virtual NeighborLists search(const Features& scene, int k) const = 0;
 
+  /// What a ratio test needs of `search`, in half the time: a list ends with its first neighbour
+  /// whose group is another than the first one's. `groups` has a number >= 0 for each view; the
+  /// pool is a group of its own. "approximate" need not find quite the same as in `search`.
+  [[nodiscard]] virtual NeighborLists search_rivals(const Features& scene, int k,
+                                                    const std::vector<int>& groups) const = 0;
+
   /// What `load_index` needs to be ready without learning the lists again: about 2 bytes for each
   /// descriptor.
   [[nodiscard]] virtual std::string save() const = 0;

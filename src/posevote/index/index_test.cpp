@@ -102,6 +102,20 @@ void expect_same(const NeighborLists& found, const std::vector<std::vector<Neigh
   }
 }
 
+/// The contract of Index::search_rivals: `lists` up to their first of another group.
+std::vector<std::vector<Neighbor>> up_to_rival(std::vector<std::vector<Neighbor>> lists,
+                                               const std::vector<int>& groups) {
+  const auto group = [&](const Neighbor& n) {
+    return n.view < 0 ? -1 : groups[static_cast<std::size_t>(n.view)];
+  };
+  for (auto& list : lists) {
+    const auto rival = std::ranges::find_if(
+        list, [&](const Neighbor& n) { return group(n) != group(list.front()); });
+    if (rival != list.end()) list.erase(rival + 1, list.end());
+  }
+  return lists;
+}
+
 IndexOptions exact() {
   IndexOptions options;
   options.method = "exact";
@@ -118,6 +132,21 @@ TEST(ExactIndex, FindsTheNeighboursOfTheOracle) {
     const auto expected = oracle(*models, scene, k);
     for_each_target([&] { expect_same(make_index(models, exact())->search(scene, k), expected); });
   }
+}
+
+TEST(ExactIndex, FindsTheNeighboursUpToARival) {
+  const auto models =
+      make_models({make_view(random_features(200, 64, 1)), make_view(random_features(150, 64, 2)),
+                   make_view(random_features(97, 64, 3, {1, -1, 0}))},
+                  {random_features(40, 64, 4)});
+  const Features scene = random_features(60, 64, 6, {0, 1, -1});
+  for (const auto& groups : std::vector<std::vector<int>>{{0, 1, 2}, {0, 0, 1}, {5, 5, 5}})
+    for (const int k : {1, 2, 17, 1000}) {
+      const auto expected = up_to_rival(oracle(*models, scene, k), groups);
+      for_each_target([&] {
+        expect_same(make_index(models, exact())->search_rivals(scene, k, groups), expected);
+      });
+    }
 }
 
 TEST(ExactIndex, WorksForOtherLengths) {
@@ -272,6 +301,23 @@ TEST(ApproximateIndex, FindsNearlyAllFirstNeighbours) {
           2e-6);
     }
   }
+}
+
+TEST(ApproximateIndex, FindsNearlyAllRivals) {
+  const auto views = clustered_views(60, 200);
+  const auto models = make_models(views);
+  const Features scene = seen_again(views);
+  std::vector<int> groups;
+  for (int v = 0; v < 60; ++v) groups.push_back(v / 6);
+  const auto found = make_index(models, approximate())->search_rivals(scene, 24, groups);
+  const auto expected = make_index(models, exact())->search_rivals(scene, 24, groups);
+  double same_first = 0, same_end = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    same_first += found[i].front().distance == expected[i].front().distance ? 1 : 0;
+    same_end += found[i].back().distance == expected[i].back().distance ? 1 : 0;
+  }
+  EXPECT_GE(same_first / static_cast<double>(found.size()), 0.95);
+  EXPECT_GE(same_end / static_cast<double>(found.size()), 0.9);
 }
 
 TEST(ApproximateIndex, AnswersTheSameOnEveryTarget) {

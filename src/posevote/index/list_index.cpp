@@ -18,6 +18,16 @@ ListIndex::ListIndex(std::string signature, const IndexOptions& options, const C
       assigned_(assigned) {}
 
 NeighborLists ListIndex::search(const Features& scene, int k) const {
+  return search_all(scene, k, nullptr);
+}
+
+NeighborLists ListIndex::search_rivals(const Features& scene, int k,
+                                       const std::vector<int>& groups) const {
+  return search_all(scene, k, &groups);
+}
+
+NeighborLists ListIndex::search_all(const Features& scene, int k,
+                                    const std::vector<int>* groups) const {
   std::size_t all = 0;
   for (const Part& part : parts_) all += part.segment->size();
   const std::size_t most = std::min(static_cast<std::size_t>(std::max(0, k)), all);
@@ -28,7 +38,7 @@ NeighborLists ListIndex::search(const Features& scene, int k) const {
                 "the scene's descriptors have " + std::to_string(scene.descriptors.cols) +
                     " values, the taught ones " + std::to_string(coder_.dimension()));
   parallel(options_.threads, scene.size(), [&](std::size_t begin, std::size_t end) {
-    search_rows(*this, scene, most, begin, end, result);
+    search_rows(*this, scene, most, groups, begin, end, result);
   });
   return result;
 }

@@ -33,6 +33,8 @@ class ListIndex : public Index {
             std::size_t assigned);
 
   [[nodiscard]] NeighborLists search(const Features& scene, int k) const override;
+  [[nodiscard]] NeighborLists search_rivals(const Features& scene, int k,
+                                            const std::vector<int>& groups) const override;
   [[nodiscard]] std::string save() const override;
   [[nodiscard]] IndexStatistics statistics() const override;
 
@@ -44,6 +46,9 @@ class ListIndex : public Index {
   [[nodiscard]] const std::vector<Part>& parts() const noexcept { return parts_; }
 
  private:
+  [[nodiscard]] NeighborLists search_all(const Features& scene, int k,
+                                         const std::vector<int>* groups) const;
+
   std::string signature_;
   IndexOptions options_;
   Coder coder_{0};

@@ -58,6 +58,9 @@ class NeighborLists {
     return neighbors_.data() + i * capacity_;
   }
 
+  /// Leaves the first `size` of list i.
+  void shorten(std::size_t i, std::size_t size) noexcept { sizes_[i] = size; }
+
  private:
   std::size_t capacity_ = 0;
   std::vector<std::size_t> sizes_;

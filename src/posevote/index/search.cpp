@@ -19,6 +19,7 @@ constexpr float kAllKeys = 65535;         // a margin that lets all through
 constexpr std::size_t kBatch = 512;       // their shortlists about fit in an L2 cache
 constexpr std::size_t kChunkBlocks = 64;  // 64 KB of codes for 64 dimensions: half of an L2 cache
 constexpr std::size_t kChunk = kChunkBlocks * kBlockLanes;
+constexpr std::size_t kFewCandidates = 32;  // most queries with groups have fewer
 constexpr std::size_t kAhead = 2;  ///< queries whose rows are on their way while one is ranked
 
 bool before(const Neighbor& a, const Neighbor& b) {
@@ -37,8 +38,6 @@ std::int16_t clamp16(float v) {
 struct Query {
   QueryCode code;
   float shift = 0;  ///< added to the key of every candidate
-  float error = 0;  ///< of a product
-  int kth = 0;      ///< key of the k-th best candidate
 };
 
 /// A list that is to be scanned for a query.
@@ -57,14 +56,17 @@ struct Source {
 
 class Search {
  public:
-  Search(const ListIndex& index, const Features& scene, std::size_t k)
+  Search(const ListIndex& index, const Features& scene, std::size_t k,
+         const std::vector<int>* groups)
       : index_(index),
         coder_(index.coder()),
         scene_(scene),
         k_(k),
+        groups_(groups),
         certain_(index.options().method == "exact"),
         code_bytes_(coder_.quads() * 4),
-        capacity_((2 * k + 64 + kBlockLanes - 1) / kBlockLanes * kBlockLanes) {
+        capacity_(((groups ? std::max(k, kFewCandidates) : 2 * k + 64) + kBlockLanes - 1) /
+                  kBlockLanes * kBlockLanes) {
     std::uint32_t place = 0;
     for (const auto& part : index_.parts()) {
       residual_ = std::max(
@@ -111,10 +113,9 @@ class Search {
       query.code = coder_.encode_query(row(q), &codes_[q * code_bytes_]);
       const float error =
           coder_.error(query.code.residual, residual_, certain_ ? 1.0F : kUsualDistance, certain_);
-      query.error = certain_ ? error + kLengthError : error;
       query.shift = certain_ ? 0.0F : kKeyScale * query.code.lost;
       // Two errors meet in a comparison: they add, or, as chance has it, their squares do.
-      const float margin = query.error * (certain_ ? 2.0F : 1.42F);
+      const float margin = certain_ ? 2 * (error + kLengthError) : 1.42F * error;
       shortlists_.emplace_back(k_, static_cast<int>(std::min(kAllKeys, kKeyScale * margin)) + 1,
                                &keys_[q * capacity_], &places_[q * capacity_], capacity_);
     }
@@ -181,9 +182,12 @@ class Search {
         std::size_t used = 0;
         for (; v < count && used < kMaxQueries; ++v)
           used += prepare_scan(visits[v], member_scale, used) ? 1 : 0;
-        scan(&lists.codes[chunk / kBlockLanes * coder_.block_bytes()],
-             (codes + kBlockLanes - 1) / kBlockLanes, coder_.quads(), scans_.data(), used);
-        for (std::size_t i = 0; i < used; ++i) collect(source, chunk, codes, i, member_scale);
+        std::uint32_t some =
+            scan(&lists.codes[chunk / kBlockLanes * coder_.block_bytes()],
+                 (codes + kBlockLanes - 1) / kBlockLanes, coder_.quads(), scans_.data(), used);
+        for (; some != 0; some &= some - 1)
+          collect(source, chunk, codes, static_cast<std::size_t>(std::countr_zero(some)),
+                  member_scale);
       }
     }
   }
@@ -208,12 +212,16 @@ class Search {
     Shortlist& shortlist = shortlists_[visit.query];
     const float slope = kKeyScale / (queries_[visit.query].code.scale * member_scale);
     const auto add = [&](std::size_t i) {
-      shortlist.add(clamp16(slope * static_cast<float>(products[i]) + visit.base),
-                    source.first_place + static_cast<std::uint32_t>(first_entry + i));
+      const std::int16_t key = clamp16(slope * static_cast<float>(products[i]) + visit.base);
+      if (key < shortlist.limit()) return;
+      const std::uint32_t place = source.first_place + static_cast<std::uint32_t>(first_entry + i);
+      if (groups_)
+        shortlist.add(key, place, group_of(source, first_entry + i));
+      else
+        shortlist.add(key, place);
     };
     if (shortlist.limit() == Shortlist::kNoLimit && !source.some_absent && count > k_) {
-      const float margin = static_cast<float>(shortlist.margin()) / slope;
-      for (const std::uint32_t i : find_best(slot, count, margin)) add(i);
+      collect_first(slot, count, static_cast<float>(shortlist.margin()) / slope, shortlist, add);
       return;
     }
     std::uint16_t* found = &found_[slot * kChunkBlocks];
@@ -233,16 +241,26 @@ class Search {
     }
   }
 
-  /// Which of the first codes seen by a query may be among the k best of them.
-  const std::vector<std::uint32_t>& find_best(std::size_t slot, std::size_t count, float margin) {
+  /// Takes the first codes that a query sees, as far as they may be among the k best of them. With
+  /// groups a few are enough if they are of two groups.
+  template <class Add>
+  void collect_first(std::size_t slot, std::size_t count, float margin, const Shortlist& shortlist,
+                     const Add& add) {
     std::int16_t* products = &products_[slot * kChunk];
     const std::size_t padded = (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
     std::fill(products + count, products + padded, std::int16_t{-32768});
-    const float limit = static_cast<float>(kth_largest(products, padded, k_)) - margin - 1;
     best_.resize(padded);
-    best_.resize(
-        find_at_least(products, padded, clamp16(std::max(limit, -32767.0F)), best_.data()));
-    return best_;
+    constexpr std::size_t kFew = 6;
+    int taken = 32768;  // products from here on
+    for (std::size_t wanted = groups_ ? std::min(k_, kFew) : k_;; wanted = k_) {
+      const float lowest = static_cast<float>(kth_largest(products, padded, wanted)) - margin - 1;
+      const std::int16_t limit = clamp16(std::max(lowest, -32767.0F));
+      const std::size_t enough = find_at_least(products, padded, limit, best_.data());
+      for (std::size_t i = 0; i < enough; ++i)
+        if (products[best_[i]] < taken) add(best_[i]);
+      if (wanted == k_ || shortlist.limit() != Shortlist::kNoLimit) return;
+      taken = limit;
+    }
   }
 
   [[nodiscard]] static bool is_present(const Source& source, std::size_t entry) {
@@ -250,18 +268,25 @@ class Search {
     return source.part->numbers[lists.entries[entry].unit].present;
   }
 
+  [[nodiscard]] int group_of(const Source& source, std::size_t entry) const {
+    const Segment::Lists& lists = source.part->segment->lists(source.sign);
+    return group_of(source.part->numbers[lists.entries[entry].unit].view);
+  }
+  [[nodiscard]] int group_of(int view) const {
+    return view < 0 ? -1 : (*groups_)[static_cast<std::size_t>(view)];
+  }
+
   /// Where the descriptor of a candidate is.
   struct Candidate {
     const uchar* row;
     bool half;  ///< CV_16F, else CV_32F
-    std::int16_t key;
     int view, feature;
   };
 
   /// Fixes the candidates of a query and asks for their entries.
   void choose(std::size_t q) {
     Shortlist& shortlist = shortlists_[q];
-    queries_[q].kth = shortlist.tighten();
+    shortlist.tighten();
     std::size_t s = 0;
     for (std::size_t i = 0; i < shortlist.size(); ++i) {
       s = source_of(shortlist.place(i), s);
@@ -274,12 +299,10 @@ class Search {
     const Shortlist& shortlist = shortlists_[q];
     std::vector<Candidate>& candidates = located_[q % located_.size()];
     candidates.clear();
-    std::size_t best = 0, s = 0;
+    std::size_t s = 0;
     for (std::size_t i = 0; i < shortlist.size(); ++i) {
       s = source_of(shortlist.place(i), s);
-      candidates.push_back(candidate(sources_[s], shortlist.place(i), shortlist.key(i)));
-      if (candidates.back().key >= queries_[q].kth)
-        std::swap(candidates[best++], candidates.back());
+      candidates.push_back(candidate(sources_[s], shortlist.place(i)));
     }
   }
 
@@ -294,35 +317,32 @@ class Search {
     return source.part->segment->lists(source.sign).entries.data();
   }
 
-  [[nodiscard]] static Candidate candidate(const Source& source, std::uint32_t place,
-                                           std::int16_t key) {
+  [[nodiscard]] static Candidate candidate(const Source& source, std::uint32_t place) {
     const Segment::Entry entry = entries_of(source)[place - source.first_place];
     const ListIndex::Number& number = source.part->numbers[entry.unit];
     const cv::Mat& rows = source.part->segment->units()[entry.unit].descriptors;
     const uchar* row = rows.data + rows.step.p[0] * entry.feature;
     const std::size_t bytes = rows.elemSize() * static_cast<std::size_t>(rows.cols);
     for (std::size_t offset = 0; offset < bytes; offset += 64) __builtin_prefetch(row + offset);
-    return {row, rows.depth() == CV_16F, key, number.view,
+    return {row, rows.depth() == CV_16F, number.view,
             number.first + static_cast<int>(entry.feature)};
   }
 
-  /// The k best of the candidates of a query by exact distance. Of those that are not among the k
-  /// best by their codes, only those are measured that the error of the codes leaves a chance.
+  /// The k best of the candidates of a query by exact distance, with groups up to the first of
+  /// another one.
   void rank(std::size_t q, NeighborLists& result) {
     std::vector<Candidate>& candidates = located_[q % located_.size()];
     const std::size_t wanted = std::min(k_, candidates.size());
-    ranked_.clear();
-    all_distances_.clear();
-    measure(q, candidates.data(), wanted);
-    float farthest = 0;
-    for (const Neighbor& neighbor : ranked_) farthest = std::max(farthest, neighbor.distance);
-    const float lowest = kKeyScale * (1 - farthest * farthest / 2 - queries_[q].error) - 1;
-    const auto end =
-        std::partition(candidates.begin() + static_cast<std::ptrdiff_t>(wanted), candidates.end(),
-                       [=](const Candidate& c) { return static_cast<float>(c.key) >= lowest; });
-    measure(q, candidates.data() + wanted,
-            static_cast<std::size_t>(end - candidates.begin()) - wanted);
-    sort(result.fill(begin_ + q, wanted), wanted);
+    measure(q, candidates);
+    Neighbor* sorted = result.fill(begin_ + q, wanted);
+    sort(sorted, wanted);
+    if (!groups_ || wanted == 0) return;
+    const auto rival = std::find_if(sorted, sorted + wanted,
+                                    [&, first = group_of(sorted->view)](const Neighbor& n) {
+                                      return group_of(n.view) != first;
+                                    });
+    if (rival != sorted + wanted)
+      result.shorten(begin_ + q, static_cast<std::size_t>(rival + 1 - sorted));
   }
 
   /// The first `wanted` of `ranked_` in order. Few are sorted by counting, for each, how many are
@@ -334,8 +354,7 @@ class Search {
     std::array<bool, kFew> taken{};
     for (std::size_t i = 0; i < size && unequal; ++i) {
       std::uint32_t nearer = 0;
-      for (std::size_t j = 0; j < size; ++j)
-        nearer += all_distances_[j] < all_distances_[i] ? 1U : 0U;
+      for (std::size_t j = 0; j < size; ++j) nearer += distances_[j] < distances_[i] ? 1U : 0U;
       unequal = !taken[nearer];
       taken[nearer] = true;
       if (nearer < wanted) sorted[nearer] = ranked_[i];
@@ -344,13 +363,13 @@ class Search {
       std::partial_sort_copy(ranked_.begin(), ranked_.end(), sorted, sorted + wanted, before);
   }
 
-  void measure(std::size_t q, const Candidate* candidates, std::size_t count) {
-    rows_.resize(count);
-    const std::size_t before_these = all_distances_.size();
-    all_distances_.resize(before_these + count);
-    float* found = all_distances_.data() + before_these;
+  void measure(std::size_t q, const std::vector<Candidate>& candidates) {
+    const std::size_t count = candidates.size();
     const auto size = static_cast<std::size_t>(coder_.dimension());
+    rows_.resize(count);
+    distances_.resize(count);
     floats_.resize(count * size);
+    ranked_.clear();
     for (std::size_t i = 0; i < count; ++i) {
       rows_[i] = reinterpret_cast<const float*>(candidates[i].row);
       if (!candidates[i].half) continue;
@@ -358,15 +377,17 @@ class Search {
                          &floats_[i * size], coder_.dimension());
       rows_[i] = &floats_[i * size];
     }
-    distances(row(q), rows_.data(), count, size, found);
+    distances(row(q), rows_.data(), count, size, distances_.data());
     for (std::size_t i = 0; i < count; ++i)
-      ranked_.push_back({candidates[i].view, candidates[i].feature, found[i]});
+      ranked_.push_back({candidates[i].view, candidates[i].feature, distances_[i]});
   }
 
   const ListIndex& index_;
   const Coder& coder_;
   const Features& scene_;
-  std::size_t k_, begin_ = 0, count_ = 0;
+  std::size_t k_;
+  const std::vector<int>* groups_;  ///< null: all k are wanted
+  std::size_t begin_ = 0, count_ = 0;
   bool certain_;
   std::size_t code_bytes_, capacity_;
   float residual_ = 0;
@@ -387,17 +408,18 @@ class Search {
   std::array<std::int16_t, kMaxQueries * kChunk> products_;
   std::array<std::vector<Candidate>, kAhead + 1> located_;
   std::vector<const float*> rows_;
-  std::vector<float> all_distances_;  ///< of `ranked_`
+  std::vector<float> distances_;  ///< of `ranked_`
   std::vector<float> floats_;
   std::vector<Neighbor> ranked_;
 };
 
 }  // namespace
 
-void search_rows(const ListIndex& index, const Features& scene, std::size_t k, std::size_t begin,
-                 std::size_t end, NeighborLists& result) {
+void search_rows(const ListIndex& index, const Features& scene, std::size_t k,
+                 const std::vector<int>* groups, std::size_t begin, std::size_t end,
+                 NeighborLists& result) {
   if (begin == end) return;
-  const auto search = std::make_unique<Search>(index, scene, k);
+  const auto search = std::make_unique<Search>(index, scene, k, groups);
   for (std::size_t first = begin; first < end; first += kBatch)
     search->run(first, std::min(end, first + kBatch), result);
 }

@@ -9,7 +9,8 @@ namespace posevote {
 
 /// Finds the neighbours of rows [begin, end) of the scene. What is found for a row does not depend
 /// on the others.
-void search_rows(const ListIndex& index, const Features& scene, std::size_t k, std::size_t begin,
-                 std::size_t end, NeighborLists& result);
+void search_rows(const ListIndex& index, const Features& scene, std::size_t k,
+                 const std::vector<int>* groups, std::size_t begin, std::size_t end,
+                 NeighborLists& result);
 
 }  // namespace posevote

@@ -13,8 +13,9 @@ namespace posevote {
 /// what the rounding of the codes does to a product.
 inline constexpr float kKeyScale = 30000;
 
-/// Candidates with a key of at least (k-th best key - margin), and some more. Keys and places of
-/// the candidates lie in memory that is lent; a list that needs more takes its own.
+/// Candidates with a key of at least (k-th best key - margin), and some more; where groups are
+/// told, at least (best key of any group but that of the best - margin). Keys and places of the
+/// candidates lie in memory that is lent; a list that needs more takes its own.
 class Shortlist {
  public:
   /// `capacity` is a multiple of kBlockLanes, at least k.
@@ -23,6 +24,7 @@ class Shortlist {
       : k_(k), margin_(margin), keys_(keys), places_(places), capacity_(capacity) {}
 
   static constexpr int kNoLimit = -32768;
+  static constexpr int kNoGroup = -2;
   /// Keys below this are of no use.
   [[nodiscard]] int limit() const noexcept { return limit_; }
   [[nodiscard]] int margin() const noexcept { return margin_; }
@@ -36,13 +38,26 @@ class Shortlist {
     places_[size_++] = place;
   }
 
-  /// Drops what is of no use. Returns the k-th best key.
-  int tighten() {
-    if (size_ < k_) return limit_;
-    const std::size_t padded = (size_ + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
-    std::fill(keys_ + size_, keys_ + padded, std::int16_t{-32768});
-    const int kth = kth_largest(keys_, padded, k_);
-    limit_ = std::max(limit_, kth - margin_);
+  void add(std::int16_t key, std::uint32_t place, int group) {
+    add(key, place);
+    if (group == group_) {
+      best_ = std::max<int>(best_, key);
+    } else if (key > best_) {
+      limit_ = std::max(limit_, best_ - margin_);
+      best_ = key;
+      group_ = group;
+    } else {
+      limit_ = std::max(limit_, key - margin_);
+    }
+  }
+
+  /// Drops what is of no use.
+  void tighten() {
+    if (size_ >= k_) {
+      const std::size_t padded = (size_ + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
+      std::fill(keys_ + size_, keys_ + padded, std::int16_t{-32768});
+      limit_ = std::max(limit_, kth_largest(keys_, padded, k_) - margin_);
+    }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       const std::int16_t key = keys_[i];
@@ -51,7 +66,6 @@ class Shortlist {
       kept += key >= limit_ ? 1 : 0;
     }
     size_ = kept;
-    return kth;
   }
 
  private:
@@ -73,6 +87,7 @@ class Shortlist {
   std::size_t k_;
   int margin_;
   int limit_ = kNoLimit;
+  int group_ = kNoGroup, best_ = kNoLimit;  ///< of the best candidate
   std::int16_t* keys_;
   std::uint32_t* places_;
   std::size_t size_ = 0, capacity_;

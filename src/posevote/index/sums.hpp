@@ -1,7 +1,9 @@
-// Sums of floats in one order for every instruction set.
+// Arithmetic that gives the same numbers with every instruction set.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 namespace posevote {
 
@@ -20,6 +22,12 @@ float sum_over(std::size_t count, const Term& term) {
   for (; d < count; ++d) sum += term(d);
   for (const float part : parts) sum += part;
   return sum;
+}
+
+/// round(v), in [-127, 127].
+inline std::int8_t round_to_code(float v) {
+  // Positive, so that cutting off rounds.
+  return static_cast<std::int8_t>(static_cast<int>(std::clamp(v + 128.5F, 1.0F, 255.0F)) - 128);
 }
 
 }  // namespace posevote

@@ -70,6 +70,7 @@ Json to_json(const RecognitionResult& result, const std::string& image) {
               {"clustered", result.counts.clustered},
               {"verified", result.counts.verified}}},
             {"detections", std::move(detections)}};
+  if (result.incomplete) json["incomplete"] = true;
   for (const UnknownRegion& region : result.unknown)
     json["unknown"].push_back({{"box", box_json(region.box)}, {"features", region.features}});
   return json;

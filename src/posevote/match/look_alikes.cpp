@@ -98,4 +98,27 @@ LookAlikes find_look_alikes(std::shared_ptr<const ModelSet> models, const Index&
   return result;
 }
 
+std::vector<int> group_views(const ModelSet& models, const std::vector<char>& table) {
+  const std::size_t count = models.objects().size();
+  std::vector<int> group(count, -1);
+  for (std::size_t first = 0; first < count; ++first) {
+    if (group[first] >= 0) continue;
+    group[first] = static_cast<int>(first);
+    std::vector<std::size_t> open{first};
+    while (!table.empty() && !open.empty()) {
+      const std::size_t row = open.back() * count;
+      open.pop_back();
+      for (std::size_t other = first + 1; other < count; ++other) {
+        if (table[row + other] == 0 || group[other] >= 0) continue;
+        group[other] = static_cast<int>(first);
+        open.push_back(other);
+      }
+    }
+  }
+  std::vector<int> groups;
+  for (const auto& view : models.views())
+    groups.push_back(group[static_cast<std::size_t>(view.object)]);
+  return groups;
+}
+
 }  // namespace posevote

@@ -21,4 +21,9 @@ struct LookAlikes {
 [[nodiscard]] LookAlikes find_look_alikes(std::shared_ptr<const ModelSet> models,
                                           const Index& index, const LookAlikes* before = nullptr);
 
+/// For each view of the models a number that it shares with the other views of its object and, by
+/// `table` (empty: none), of all look-alikes, and of their look-alikes: `groups` of
+/// `Index::search_rivals`.
+[[nodiscard]] std::vector<int> group_views(const ModelSet& models, const std::vector<char>& table);
+
 }  // namespace posevote

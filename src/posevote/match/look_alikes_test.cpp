@@ -85,5 +85,13 @@ TEST(FindLookAlikes, WithOneObjectOrEmptyViewsThereIsNothing) {
             std::vector<char>(4, 0));
 }
 
+TEST(GroupViews, LookAlikesOfLookAlikesAreOneGroup) {
+  const ModelSet models(
+      "surf", {object("a", range(0, 2), 2), object("b", {}), object("c", {}), object("d", {})});
+  const std::vector<char> table{0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0, 1, 0};  // a-d, d-c
+  EXPECT_EQ(group_views(models, table), (std::vector<int>{0, 0, 1, 0, 0}));
+  EXPECT_EQ(group_views(models, {}), (std::vector<int>{0, 0, 1, 2, 3}));
+}
+
 }  // namespace
 }  // namespace posevote

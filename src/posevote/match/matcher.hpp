@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "posevote/core/options.hpp"
-#include "posevote/index/index.hpp"
+#include "posevote/index/neighbors.hpp"
 #include "posevote/model/model_set.hpp"
 
 namespace posevote {

@@ -11,6 +11,8 @@
 #include "posevote/match/look_alikes.hpp"
 #include "posevote/recognize/compete.hpp"
 #include "posevote/recognize/consensus.hpp"
+#include "posevote/recognize/deadline.hpp"
+#include "posevote/recognize/prepared.hpp"
 #include "posevote/recognize/trace.hpp"
 #include "posevote/recognize/unknown.hpp"
 
@@ -41,12 +43,21 @@ bool is_repeated(const PoseCluster& cluster, std::vector<char>& seen) {
   return static_cast<double>(known) > kMost * static_cast<double>(cluster.matches.size());
 }
 
+// Shares of the time budget after which no more features are matched and no more hypotheses
+// verified: the one in hand and the competition that follows need the rest.
+constexpr double kMatchingEnds = 0.6, kVerifyingEnds = 0.85;
+
 std::vector<Hypothesis> verify_all(const std::vector<PoseCluster>& clusters,
-                                   const SceneContext& scene, const RecognizeOptions& options) {
+                                   const SceneContext& scene, const RecognizeOptions& options,
+                                   const Deadline& deadline, bool& incomplete) {
   std::vector<Hypothesis> found;
   std::vector<char> seen(scene.matches.size(), 0);
   for (const PoseCluster& cluster : clusters) {
     if (static_cast<int>(found.size()) == options.max_hypotheses) break;
+    if (deadline.passed(kVerifyingEnds)) {
+      incomplete = true;
+      break;
+    }
     if (!is_repeated(cluster, seen))
       found.push_back(verify_cluster(cluster, scene, options.verify));
   }
@@ -81,11 +92,41 @@ Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
   return detection;
 }
 
-void record_matches(const Neighborhood& neighborhood, const std::vector<Match>& matches,
+/// Nothing beyond its reference can match a scene feature, unless the ratio says otherwise.
+NeighborLists find_neighbors(const Index& index, const Features& scene, const MatchOptions& options,
+                             const std::vector<int>& groups) {
+  return options.max_ratio < 1 ? index.search_rivals(scene, options.neighbors, groups)
+                               : index.search(scene, options.neighbors);
+}
+
+/// Of the strongest features only, if the time is short.
+NeighborLists find_neighbors_in_time(const Index& index, const Features& scene,
+                                     const MatchOptions& options, const std::vector<int>& groups,
+                                     const Deadline& deadline, bool& incomplete) {
+  if (!deadline.limited()) return find_neighbors(index, scene, options, groups);
+  constexpr std::size_t kAtOnce = 512;
+  NeighborLists result(scene.size(), static_cast<std::size_t>(options.neighbors));
+  for (std::size_t first = 0; first < scene.size(); first += kAtOnce) {
+    if (deadline.passed(kMatchingEnds)) {
+      incomplete = true;
+      break;
+    }
+    const std::size_t end = std::min(scene.size(), first + kAtOnce);
+    const Features some{{scene.keypoints.begin() + static_cast<std::ptrdiff_t>(first),
+                         scene.keypoints.begin() + static_cast<std::ptrdiff_t>(end)},
+                        scene.descriptors.rowRange(static_cast<int>(first), static_cast<int>(end))};
+    const NeighborLists found = find_neighbors(index, some, options, groups);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      std::ranges::copy(found[i], result.fill(first + i, found[i].size()));
+  }
+  return result;
+}
+
+void record_matches(const NeighborLists& neighbors, const std::vector<Match>& matches,
                     const std::vector<PoseCluster>& clusters, Trace& trace) {
-  for (std::size_t s = 0; s < neighborhood.neighbors().size(); ++s) {
+  for (std::size_t s = 0; s < neighbors.size(); ++s) {
     auto& views = trace.similar_views.emplace_back();
-    for (const Neighbor& neighbor : neighborhood.neighbors()[s]) views.push_back(neighbor.view);
+    for (const Neighbor& neighbor : neighbors[s]) views.push_back(neighbor.view);
   }
   trace.matches = matches;
   trace.clusters = clusters;
@@ -106,6 +147,9 @@ void RecognizeOptions::describe(OptionList& list) {
            "How a hypothesis is accepted: by its number of false alarms, or by the paper's rule.");
   list.add("max_hypotheses", max_hypotheses, {1, 1000000}, "",
            "Clusters of votes looked at per picture, strongest first.");
+  list.add("deadline_ms", deadline_ms, {0, 1e6}, "ms",
+           "Time for a picture, 0 for as much as it takes: then the strongest features and "
+           "hypotheses go first, and the result says when it is incomplete.");
   list.add("max_overlap", max_overlap, {0, 1}, "",
            "Overlap (intersection over union) beyond which two detections of one object are one.");
   list.add("unknown", unknown,
@@ -143,6 +187,7 @@ struct Recognizer::State {
     std::shared_ptr<const ModelSet> models;
     std::shared_ptr<const Index> index;
     LookAlikes look_alikes;
+    std::vector<int> groups;  ///< of views, by look_alikes
   };
 
   RecognizeOptions options;
@@ -150,19 +195,22 @@ struct Recognizer::State {
   std::atomic<std::shared_ptr<const Snapshot>> snapshot;
 
   RecognitionResult run(const Snapshot& now, const Features& scene, const cv::Mat& image,
-                        Trace* trace = nullptr) const;
+                        const Deadline& deadline, Trace* trace = nullptr) const;
+  void prepare(std::shared_ptr<const ModelSet> models, const std::string& prepared);
 };
 
 RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& scene,
-                                         const cv::Mat& image, Trace* trace) const {
+                                         const cv::Mat& image, const Deadline& deadline,
+                                         Trace* trace) const {
   RecognitionResult result;
   const cv::Size size = result.image_size = image.size();
   result.counts.features = static_cast<int>(scene.size());
   Stopwatch watch;
 
   const ModelSet& models = *now.models;
-  const Neighborhood neighborhood(now.index->search(scene, options.match.neighbors), models,
-                                  now.look_alikes.table);
+  const Neighborhood neighborhood(find_neighbors_in_time(*now.index, scene, options.match,
+                                                         now.groups, deadline, result.incomplete),
+                                  models, now.look_alikes.table);
   const auto matches = match_features(neighborhood, options.match);
   result.counts.matched = count_distinct(matches, [](const Match& m) { return m.scene; });
   result.time_ms.match = watch.lap();
@@ -175,12 +223,13 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
   SceneRivals rivals(models, scene, options.verify.evidence.rivals);
   const ScenePyramid pyramid(image);
   const SceneContext context{models, neighborhood, grid, matches, rivals, pyramid};
-  if (trace) record_matches(neighborhood, matches, clusters, *trace);
+  if (trace)
+    record_matches(now.index->search(scene, options.match.neighbors), matches, clusters, *trace);
   std::vector<Hypothesis> hypotheses;
   if (options.rule == "paper") {
     hypotheses = apply_paper_rule(clusters, context, options.paper);
   } else {
-    hypotheses = verify_all(clusters, context, options);
+    hypotheses = verify_all(clusters, context, options, deadline, result.incomplete);
     measure_consensus(hypotheses, models);
     for (Hypothesis& hypothesis : hypotheses) rate(hypothesis, options.verify);
     if (trace) record_hypotheses(hypotheses, context, *trace);
@@ -198,21 +247,24 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
   return result;
 }
 
-Recognizer::Recognizer(std::shared_ptr<const ModelSet> models, const RecognizeOptions& options)
+Recognizer::Recognizer(std::shared_ptr<const ModelSet> models, const RecognizeOptions& options,
+                       const std::string& prepared)
     : state_(std::make_unique<State>()) {
   validate_options(options);
   state_->options = options;
   state_->extractor = make_extractor(options.feature);
-  set_models(std::move(models));
+  state_->prepare(std::move(models), prepared);
 }
 
 Recognizer::~Recognizer() = default;
 
 RecognitionResult Recognizer::recognize(const cv::Mat& image) const {
+  const Deadline deadline(state_->options.deadline_ms);
   Stopwatch watch;
   const Features scene = state_->extractor->extract(image);
   const double detect_ms = watch.lap();
-  RecognitionResult result = recognize(scene, image);
+  const auto now = state_->snapshot.load();
+  RecognitionResult result = state_->run(*now, scene, image, deadline);
   result.time_ms.detect = detect_ms;
   result.time_ms.total = detect_ms + watch.lap();
   return result;
@@ -221,7 +273,7 @@ RecognitionResult Recognizer::recognize(const cv::Mat& image) const {
 RecognitionResult Recognizer::recognize(const Features& scene, const cv::Mat& image) const {
   Stopwatch watch;
   const auto now = state_->snapshot.load();
-  RecognitionResult result = state_->run(*now, scene, image);
+  RecognitionResult result = state_->run(*now, scene, image, Deadline(state_->options.deadline_ms));
   result.time_ms.total = watch.lap();
   return result;
 }
@@ -231,23 +283,42 @@ Trace Recognizer::trace(const cv::Mat& image) const {
   const auto now = state_->snapshot.load();
   trace.models = now->models;
   trace.scene = state_->extractor->extract(image);
-  trace.detections = state_->run(*now, trace.scene, image, &trace).detections;
+  trace.detections = state_->run(*now, trace.scene, image, Deadline(0), &trace).detections;
   return trace;
 }
 
-void Recognizer::set_models(std::shared_ptr<const ModelSet> models) {
-  if (!models->views().empty() && models->signature() != state_->options.feature.signature())
-    throw Error(ErrorCode::feature_mismatch, "the objects hold features '" + models->signature() +
-                                                 "' but recognition uses '" +
-                                                 state_->options.feature.signature() +
-                                                 "'; choose the same kind or rebuild them");
-  const auto before = state_->snapshot.load();
-  auto index = make_index(models, state_->options.index, before ? before->index.get() : nullptr);
+void Recognizer::State::prepare(std::shared_ptr<const ModelSet> models,
+                                const std::string& prepared_bytes) {
+  if (!models->views().empty() && models->signature() != options.feature.signature())
+    throw Error(ErrorCode::feature_mismatch,
+                "the objects hold features '" + models->signature() + "' but recognition uses '" +
+                    options.feature.signature() + "'; choose the same kind or rebuild them");
+  const auto before = snapshot.load();
+  const Prepared prepared = read_prepared(prepared_bytes, *models);
+  auto index = before ? make_index(models, options.index, before->index.get())
+                      : load_index(models, prepared.index, options.index);
   LookAlikes look_alikes;
-  if (state_->options.rule != "paper")  // which knows none
-    look_alikes = find_look_alikes(models, *index, before ? &before->look_alikes : nullptr);
-  state_->snapshot.store(std::make_shared<const State::Snapshot>(
-      State::Snapshot{std::move(models), std::move(index), std::move(look_alikes)}));
+  if (options.rule != "paper")  // which knows none
+    look_alikes = find_look_alikes(models, *index,
+                                   before                        ? &before->look_alikes
+                                   : prepared.look_alikes.models ? &prepared.look_alikes
+                                                                 : nullptr);
+  auto groups = group_views(*models, look_alikes.table);
+  snapshot.store(std::make_shared<const Snapshot>(
+      Snapshot{std::move(models), std::move(index), std::move(look_alikes), std::move(groups)}));
+}
+
+void Recognizer::set_models(std::shared_ptr<const ModelSet> models) {
+  state_->prepare(std::move(models), {});
+}
+
+std::string Recognizer::save_prepared() const {
+  const auto now = state_->snapshot.load();
+  return posevote::save_prepared(*now->index, now->look_alikes);
+}
+
+IndexStatistics Recognizer::index_statistics() const {
+  return state_->snapshot.load()->index->statistics();
 }
 
 std::shared_ptr<const ModelSet> Recognizer::models() const {

@@ -60,6 +60,7 @@ struct RecognitionResult {
   cv::Size image_size;
   std::vector<Detection> detections;   ///< best first, each physical instance once
   std::vector<UnknownRegion> unknown;  ///< most features first; only with RecognizeOptions::unknown
+  bool incomplete = false;  ///< RecognizeOptions::deadline_ms came before all was looked at
   StageTimes time_ms;
   StageCounts counts;
 };
@@ -75,6 +76,10 @@ struct RecognizeOptions {
   PaperOptions paper;
   int max_hypotheses = 400;  ///< clusters looked at per scene, strongest first
   bool unknown = false;      ///< also report what no object explains
+  /// Time for a picture, 0: as much as it takes. The strongest features are matched and the
+  /// strongest hypotheses verified first; what is left then is left out, so that answers depend on
+  /// the machine. Features are extracted in any case: that must fit.
+  double deadline_ms = 0;
   double max_overlap = 0.4;  ///< intersection over union of two detections of one object
   void describe(OptionList& list);
 };
@@ -93,7 +98,10 @@ class Recognizer {
  public:
   /// Throws Error{invalid_argument} for options out of range and Error{feature_mismatch} when
   /// `models` holds features of another kind than options.feature.
-  explicit Recognizer(std::shared_ptr<const ModelSet> models, const RecognizeOptions& options = {});
+  /// `prepared`: what `save_prepared` gave for these models or others of which some are the same;
+  /// spares most of the time that making a recogniser of many objects takes.
+  explicit Recognizer(std::shared_ptr<const ModelSet> models, const RecognizeOptions& options = {},
+                      const std::string& prepared = {});
   ~Recognizer();
 
   /// `image` as in `Extractor::extract`. Nothing found is a result without detections.
@@ -107,6 +115,10 @@ class Recognizer {
 
   void set_models(std::shared_ptr<const ModelSet> models);
   [[nodiscard]] std::shared_ptr<const ModelSet> models() const;
+
+  /// What was found out about the present models, to be kept for the next start.
+  [[nodiscard]] std::string save_prepared() const;
+  [[nodiscard]] IndexStatistics index_statistics() const;
   [[nodiscard]] const RecognizeOptions& options() const noexcept;
 
  private:

@@ -232,6 +232,35 @@ TEST(Recognizer, GivesTheSameAnswerAgain) {
   EXPECT_EQ(first.detections[0].log10_false_alarms, second.detections[0].log10_false_alarms);
 }
 
+TEST(Recognizer, ATimeBudgetThatIsSpentLeavesAnIncompleteResult) {
+  RecognizeOptions options = options_of();
+  const cv::Mat scene = scene_with({turned(0, 1, {400, 320})});
+  options.deadline_ms = 1e-3;  // over before the first feature is matched
+  const auto nothing = Recognizer(poster_model(), options).recognize(scene);
+  EXPECT_TRUE(nothing.incomplete);
+  EXPECT_TRUE(nothing.detections.empty());
+  EXPECT_GT(nothing.counts.features, 0);
+  options.deadline_ms = 1e6;
+  const auto all = Recognizer(poster_model(), options).recognize(scene);
+  EXPECT_FALSE(all.incomplete);
+  EXPECT_EQ(all.detections.size(), 1U);
+  EXPECT_EQ(all.counts.matched,
+            Recognizer(poster_model(), options_of()).recognize(scene).counts.matched);
+}
+
+TEST(Recognizer, AnswersTheSameWithWhatAnotherOnePrepared) {
+  auto view = whole_picture(poster());
+  view->hash = "poster";
+  const auto models = models_of({{"poster", {view}}});
+  const Recognizer first(models, options_of());
+  const Recognizer second(models, options_of(), first.save_prepared());
+  EXPECT_GT(first.index_statistics().assigned, 0U);
+  EXPECT_EQ(second.index_statistics().assigned, 0U);
+  const cv::Mat scene = scene_with({turned(33, 0.8, {400, 320})});
+  EXPECT_EQ(first.recognize(scene).detections.at(0).log10_false_alarms,
+            second.recognize(scene).detections.at(0).log10_false_alarms);
+}
+
 TEST(Recognizer, RefusesFeaturesOfAnotherKindAndOptionsOutOfRange) {
   RecognizeOptions sift = options_of();
   sift.feature.kind = features().kind == "surf" ? "sift" : "surf";

@@ -61,6 +61,23 @@ struct ScratchFile {
   }
 };
 
+/// Fills a new database by `fill`; it appears as `path` when it is complete.
+template <class Fill>
+TransferResult write_file(const std::string& path, bool overwrite, const Fill& fill) {
+  if (!overwrite && fs::exists(path))
+    throw Error(ErrorCode::already_exists, "file '" + path + "' exists already");
+  const ScratchFile scratch{path + ".part" + std::to_string(getpid())};
+  TransferResult result;
+  {
+    SqliteOptions options;
+    options.write_ahead = false;
+    const auto to = open_sqlite_store(scratch.path, options);
+    result = fill(*to);
+  }
+  publish(scratch.path, path, overwrite);
+  return result;
+}
+
 }  // namespace
 
 TransferResult copy_objects(const ObjectStore& from, ObjectStore& to,
@@ -89,18 +106,21 @@ TransferResult copy_objects(const ObjectStore& from, ObjectStore& to,
 
 TransferResult export_objects(const ObjectStore& from, const std::string& path,
                               const std::vector<std::string>& names, bool overwrite) {
-  if (!overwrite && fs::exists(path))
-    throw Error(ErrorCode::already_exists, "file '" + path + "' exists already");
-  const ScratchFile scratch{path + ".part" + std::to_string(getpid())};
-  TransferResult result;
-  {
-    SqliteOptions options;
-    options.write_ahead = false;
-    const auto to = open_sqlite_store(scratch.path, options);
-    result = copy_objects(from, *to, names, OnConflict::refuse);
-  }
-  publish(scratch.path, path, overwrite);
-  return result;
+  return write_file(path, overwrite, [&](ObjectStore& to) {
+    return copy_objects(from, to, names, OnConflict::refuse);
+  });
+}
+
+TransferResult save_copy(const ObjectStore& from, const std::string& path) {
+  return write_file(path, false, [&](ObjectStore& to) {
+    TransferResult result;
+    to.transact([&] {
+      if (!from.list().empty()) result = copy_objects(from, to, {}, OnConflict::refuse);
+      for (const ImpostorSummary& impostor : from.impostors())
+        to.add_impostor(from.impostor(impostor.id), from.features().value());
+    });
+    return result;
+  });
 }
 
 TransferResult import_objects(const std::string& path, ObjectStore& to,

@@ -32,7 +32,11 @@ TransferResult copy_objects(const ObjectStore& from, ObjectStore& to,
 TransferResult export_objects(const ObjectStore& from, const std::string& path,
                               const std::vector<std::string>& names, bool overwrite = false);
 
-/// The reverse; the file is not changed.
+/// Writes all objects and impostors into the new file `path`, as `export_objects` does; an empty
+/// database gives an empty one. Throws Error{already_exists} when the file exists.
+TransferResult save_copy(const ObjectStore& from, const std::string& path);
+
+/// The reverse of `export_objects`; the file is not changed.
 TransferResult import_objects(const std::string& path, ObjectStore& to,
                               const std::vector<std::string>& names, OnConflict on_conflict);
 

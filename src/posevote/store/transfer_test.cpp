@@ -87,6 +87,25 @@ TEST_F(Transfer, ConflictsAreRefusedMergedOrReplaced) {
   EXPECT_EQ(to_->views("mug").size(), 2U);
 }
 
+TEST_F(Transfer, ACopyHoldsImpostorsToo) {
+  from_->add_impostor({"", made_features(9), {1, 2, 3}, {}}, surf);
+  EXPECT_EQ(save_copy(*from_, file_).views_added, 3);
+  const auto copy = open_sqlite_store(file_);
+  EXPECT_EQ(copy->views("mug")[1].hash, from_->views("mug")[1].hash);
+  ASSERT_EQ(copy->impostors().size(), 1U);
+  EXPECT_EQ(copy->impostors()[0].identity, from_->impostors()[0].identity);
+  EXPECT_THAT(error_of([&] { save_copy(*from_, file_); }), StartsWith("already_exists"));
+}
+
+TEST_F(Transfer, ACopyMayHoldImpostorsOnlyOrNothing) {
+  EXPECT_EQ(save_copy(*to_, file_).objects, 0);
+  EXPECT_TRUE(open_sqlite_store(file_)->list().empty());
+  fs::remove(file_);
+  to_->add_impostor({"", made_features(9), {1, 2, 3}, {}}, surf);
+  save_copy(*to_, file_);
+  EXPECT_EQ(open_sqlite_store(file_)->impostors().size(), 1U);
+}
+
 TEST_F(Transfer, OtherFeaturesAreRefused) {
   to_->add_view("pot", made_view(9), sift);
   export_objects(*from_, file_, {});

@@ -77,7 +77,7 @@ class NodeTest(unittest.TestCase):
         self.assertTrue(goal.accepted)
         timer = self.node.create_timer(0.1, lambda: send(cover))
         result = self.wait(goal.get_result_async()).result
-        timer.destroy()
+        self.node.destroy_timer(timer)
         self.assertTrue(result.success, result.message)
         listed = self.call(ListObjects, "/posevote/list_objects", ListObjects.Request())
         self.assertEqual([o.object for o in listed.database.objects], ["poster"])
@@ -90,7 +90,7 @@ class NodeTest(unittest.TestCase):
         while not (any(a.detections for a in answers) and drawn):
             self.assertLess(self.node.get_clock().now().nanoseconds, end)
             rclpy.spin_once(self.node, timeout_sec=0.5)
-        timer.destroy()
+        self.node.destroy_timer(timer)
         found = next(a for a in answers if a.detections)
         self.assertEqual([d.object for d in found.detections], ["poster"])
         self.assertEqual((found.image_width, drawn[0].width), (1280, 1280))

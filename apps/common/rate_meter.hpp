@@ -4,7 +4,7 @@
 #include <deque>
 #include <mutex>
 
-namespace posevote::server {
+namespace posevote {
 
 /// Safe for many threads. Times are seconds on any one clock.
 class RateMeter {
@@ -32,4 +32,4 @@ class RateMeter {
   std::deque<double> times_;
 };
 
-}  // namespace posevote::server
+}  // namespace posevote

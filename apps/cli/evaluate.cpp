@@ -103,6 +103,9 @@ void print_one(const Evaluation& evaluation) {
   }
   const Table confusion = confusion_table(evaluation);
   if (!confusion.rows.empty()) std::cout << '\n' << confusion.to_text();
+  if (!evaluation.silhouettes.empty())
+    std::cout << '\n'
+              << silhouette_table(evaluation.dataset.name, evaluation.silhouettes).to_text();
   if (!evaluation.refused.empty()) std::cout << '\n' << refused_table(evaluation).to_text();
 }
 
@@ -149,6 +152,8 @@ void work_on(const Dataset& dataset, const Dataset& negatives, const EvaluateArg
     sections.push_back(run_sweep(name, dataset, taught, method));
   if (only_parts) return;
   evaluations.push_back(taught.evaluate(dataset, negatives));
+  if (!arguments.report.empty())
+    taught.explain_worst(evaluations.back(), ReportOptions().max_cases);
   if (!arguments.peers.empty())
     sections.push_back(compare_peers(or_all(arguments.peers, peer_names()), evaluations.back(),
                                      taught.taught(), method));
@@ -181,10 +186,10 @@ void run(const EvaluateArguments& arguments, CommandContext& context) {
             arguments, method, evaluations, sections);
 
   print(evaluations, sections, arguments.json);
-  if (!arguments.report.empty())
-    std::cerr << "report: "
-              << write_report(make_report(evaluations, sections), arguments.report).string()
-              << '\n';
+  if (!arguments.report.empty()) {
+    const auto page = write_report(make_report(evaluations, sections), arguments.report);
+    std::cerr << "report: " << page.string() << '\n';
+  }
   if (!arguments.markdown.empty())
     write_file(arguments.markdown, make_markdown(evaluations, sections));
   if (!arguments.dump.empty()) {

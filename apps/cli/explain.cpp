@@ -21,26 +21,10 @@ struct ExplainArguments {
   bool json = false;
 };
 
-void print_line(const char* label, int count) {
-  std::printf("  %-44s %6d\n", label, count);
-}
-
 void print_text(const Explanation& e) {
   std::printf("%s: %s\n", e.object.c_str(), e.found ? "found" : "not found");
-  print_line("features of the picture", e.scene_features);
-  print_line("that look like one of the object's", e.similar);
-  print_line("more like it than like anything else", e.matched);
-  print_line("most of them voting for one pose", e.largest_bin);
-  print_line("poses with enough votes", e.clusters);
-  if (e.best) {
-    const Detection& best = *e.best;
-    print_line("features that agree on the strongest pose", best.inliers);
-    std::printf("  %-44s %6.1f\n", "digits of the number of false alarms",
-                -best.log10_false_alarms);
-    if (best.probability > 0)
-      std::printf("  %-44s %5.0f %% this object, %.0f %% in this place\n", "how probable",
-                  100 * best.presence.object, 100 * best.presence.place);
-  }
+  for (const auto& [what, how_much] : stages_of(e))
+    std::printf("  %-44s %6s\n", what.c_str(), how_much.c_str());
   std::printf("  %s: %s", e.found ? "because" : "ended", e.reason.c_str());
   if (!e.option.empty()) std::printf(" (option %s)", e.option.c_str());
   std::printf("\n");

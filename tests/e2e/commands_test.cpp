@@ -98,6 +98,15 @@ TEST_F(Commands, EveryKindOfPixelIsRecognised) {
   EXPECT_THAT(found(write("deep.png", deep)), poster);
 }
 
+TEST_F(Commands, OnePixelAndTwentyMegapixelsAreRecognised) {
+  teach_poster();
+  EXPECT_THAT(found(write("dot.png", cv::Mat(1, 1, CV_8UC3, cv::Scalar(9, 90, 200)))),
+              testing::IsEmpty());
+  cv::Mat large(4000, 5000, CV_8UC3, cv::Scalar::all(120));
+  poster_.copyTo(large(cv::Rect({4000, 3000}, poster_.size())));
+  EXPECT_THAT(found(write("large.jpg", large)), testing::ElementsAre("poster"));
+}
+
 TEST_F(Commands, ExifRotatedPicturesAreSeenUpright) {
   teach_poster();
   cv::Mat turned;

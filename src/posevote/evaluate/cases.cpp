@@ -7,6 +7,7 @@
 #include "posevote/core/error.hpp"
 #include "posevote/evaluate/table.hpp"
 #include "posevote/feature/features.hpp"
+#include "posevote/teach/segment.hpp"
 
 namespace posevote {
 namespace {
@@ -39,14 +40,6 @@ std::string base64(const std::vector<unsigned char>& bytes) {
   return text;
 }
 
-cv::Mat to_8bit_bgr(const cv::Mat& picture) {
-  cv::Mat eight = picture, colour;
-  if (picture.depth() == CV_16U) picture.convertTo(eight, CV_8U, 1.0 / 256);
-  if (eight.channels() == 1) cv::cvtColor(eight, colour, cv::COLOR_GRAY2BGR);
-  if (eight.channels() == 4) cv::cvtColor(eight, colour, cv::COLOR_BGRA2BGR);
-  return colour.empty() ? eight : colour;
-}
-
 std::string polygon(const std::vector<cv::Point2f>& outline, const std::string& css) {
   std::string points;
   for (const cv::Point2f& point : outline)
@@ -57,6 +50,59 @@ std::string polygon(const std::vector<cv::Point2f>& outline, const std::string& 
 std::string rectangle(const cv::Rect2d& box, const std::string& css) {
   return "<rect class=\"" + css + "\" x=\"" + fixed(box.x, 1) + "\" y=\"" + fixed(box.y, 1) +
          "\" width=\"" + fixed(box.width, 1) + "\" height=\"" + fixed(box.height, 1) + "\"/>";
+}
+
+std::string dots(const std::vector<cv::Point2f>& points, double radius, const std::string& css) {
+  std::string text;
+  for (const cv::Point2f& point : points)
+    text += "<circle class=\"" + css + "\" cx=\"" + fixed(point.x, 0) + "\" cy=\"" +
+            fixed(point.y, 0) + "\" r=\"" + fixed(radius, 1) + "\"/>";
+  return text;
+}
+
+std::vector<cv::Point2f> scene_points(const std::vector<MatchedPoint>& matches) {
+  std::vector<cv::Point2f> points;
+  for (const MatchedPoint& match : matches) points.push_back(match.scene);
+  return points;
+}
+
+// Matches, votes and strongest pose: what `posevote explain --draw` shows.
+std::string evidence_svg(const Explanation& e, int picture_width) {
+  const double unit = picture_width / 200.0;
+  std::string svg =
+      dots(e.vote_centres, unit, "vote") + dots(scene_points(e.matches), unit, "match");
+  if (e.best)
+    svg +=
+        dots(scene_points(e.best->matches), 0.8 * unit, "agree") + polygon(e.best->outline, "pose");
+  return "<g class=\"evidence\">" + svg + "</g>";
+}
+
+std::string fold(const Explanation& e) {
+  std::string rows;
+  for (const auto& [what, how_much] : stages_of(e))
+    rows += "<tr><td>" + escape_html(what) + "</td><td>" + escape_html(how_much) + "</td></tr>";
+  return "<details><summary>" + std::string(e.found ? "Found: " : "Not found: ") +
+         escape_html(e.reason) + "</summary><table>" + rows + "</table>" +
+         (e.option.empty() ? "" : "<p>option <code>" + escape_html(e.option) + "</code></p>") +
+         "</details>";
+}
+
+// Empty when it cannot be read.
+cv::Mat read_for_report(const Dataset& dataset, const std::filesystem::path& relative) try {
+  return to_bgr8(read_dataset_image(dataset, relative));
+} catch (const Error&) {
+  return {};
+}
+
+std::string figure(const cv::Mat& picture, const std::string& name, const std::string& overlay,
+                   const std::string& caption, const PictureOptions& options) {
+  cv::Mat small = picture;
+  const double factor = static_cast<double>(options.width) / picture.cols;
+  if (factor < 1) cv::resize(picture, small, cv::Size(), factor, factor, cv::INTER_AREA);
+  return "<figure><div class=\"picture\"><img alt=\"" + escape_html(name) + "\" src=\"" +
+         jpeg_data_url(small, options.jpeg_quality) + "\"><svg viewBox=\"0 0 " +
+         std::to_string(picture.cols) + " " + std::to_string(picture.rows) + "\">" + overlay +
+         "</svg></div><figcaption>" + caption + "</figcaption></figure>\n";
 }
 
 std::string caption(const Case& item) {
@@ -125,26 +171,53 @@ std::string jpeg_data_url(const cv::Mat& picture, int quality) {
   return "data:image/jpeg;base64," + base64(bytes);
 }
 
-std::string case_figure(const Case& item, int picture_width, int jpeg_quality) {
-  cv::Mat picture;
-  try {
-    picture = to_8bit_bgr(read_dataset_image(*item.dataset, test_of(item).image));
-  } catch (const Error&) {
-    return "";
-  }
-  const cv::Size size = picture.size();
-  if (size.width > picture_width) {
-    const double factor = static_cast<double>(picture_width) / size.width;
-    cv::resize(picture, picture, cv::Size(), factor, factor, cv::INTER_AREA);
-  }
+std::vector<CaseList> worst_cases(const Evaluation& e) {
+  std::vector<CaseList> lists{
+      {"False positives, surest first", cases_of(e.dataset, e.outcomes, Verdict::false_positive)},
+      {"False positives on " + e.negatives.name,
+       cases_of(e.negatives, e.negative_outcomes, Verdict::false_positive)},
+      {"Missed, best visible first", missed_cases(e.dataset, e.outcomes)},
+      {"Named as the twin", cases_of(e.dataset, e.outcomes, Verdict::twin)}};
+  std::erase_if(lists, [](const CaseList& list) { return list.cases.empty(); });
+  return lists;
+}
+
+std::pair<std::filesystem::path, std::string> question_of(const Case& item) {
+  return {item.dataset->path(test_of(item).image),
+          item.detection >= 0 ? detection_of(item).object : truth_of(item).name};
+}
+
+std::string case_figure(const Case& item, const Explanation* explanation,
+                        const PictureOptions& options) {
+  const std::filesystem::path& file = test_of(item).image;
+  const cv::Mat picture = read_for_report(*item.dataset, file);
+  if (picture.empty()) return "";
   std::string overlay;
+  if (explanation != nullptr) overlay += evidence_svg(*explanation, picture.cols);
   if (item.truth >= 0) overlay += rectangle(truth_of(item).box, "truth");
   if (item.detection >= 0) overlay += polygon(detection_of(item).outline, "claim");
-  return "<figure><div class=\"picture\"><img alt=\"" +
-         escape_html(test_of(item).image.generic_string()) + "\" src=\"" +
-         jpeg_data_url(picture, jpeg_quality) + "\"><svg viewBox=\"0 0 " +
-         std::to_string(size.width) + " " + std::to_string(size.height) + "\">" + overlay +
-         "</svg></div><figcaption>" + caption(item) + "</figcaption></figure>\n";
+  return figure(picture, file.generic_string(), overlay,
+                caption(item) + (explanation != nullptr ? fold(*explanation) : ""), options);
+}
+
+std::string silhouette_figure(const Dataset& dataset, const SilhouetteCase& item,
+                              const PictureOptions& options) {
+  const cv::Mat picture = read_for_report(dataset, item.image);
+  const cv::Mat truth = read_for_report(dataset, item.truth_mask);
+  if (picture.empty() || truth.empty()) return "";
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(to_grey(truth) > 127, contours, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
+  std::string overlay;
+  for (const auto& contour : contours)
+    overlay += polygon({contour.begin(), contour.end()}, "truth");
+  overlay += polygon(item.outline, "claim");
+  return figure(picture, item.image, overlay,
+                "<b>" + escape_html(item.object) + "</b> " +
+                    (item.refused ? "refused" : "IoU " + fixed(item.fit.iou, 3)) +
+                    "<br>taken wrongly " + percent(item.fit.wrong_share) + ", of it shadow " +
+                    percent(item.fit.shadow_share) + "<br><span class=\"soft\">" +
+                    escape_html(item.image) + "</span>",
+                options);
 }
 
 }  // namespace posevote

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -30,6 +31,16 @@ std::map<std::pair<std::string, std::string>, int> count_answers(const Evaluatio
   return counts;
 }
 
+// "mug 3, tea": most first, then by name; once goes without a number.
+std::string in_words(const std::map<std::string, int>& counts) {
+  std::vector<std::pair<std::string, int>> sorted(counts.begin(), counts.end());
+  std::ranges::stable_sort(sorted, std::greater{}, &std::pair<std::string, int>::second);
+  std::string text;
+  for (const auto& [name, count] : sorted)
+    text += (text.empty() ? "" : ", ") + name + (count > 1 ? " " + std::to_string(count) : "");
+  return text;
+}
+
 }  // namespace
 
 Table confusion_table(const Evaluation& evaluation) {
@@ -53,6 +64,36 @@ Table confusion_table(const Evaluation& evaluation) {
   }
   table.note = "Objects that were always right and never claimed elsewhere are left out.";
   return table;
+}
+
+std::vector<std::string> mistakes_of(const Evaluation& evaluation) {
+  std::map<std::string, int> missed, names, places, twice, nothing;
+  for (const TestOutcome& outcome : evaluation.outcomes) {
+    const auto& objects = evaluation.dataset.tests[outcome.test].objects;
+    for (const int i : outcome.score.missed) ++missed[objects[static_cast<std::size_t>(i)].name];
+    for (std::size_t i = 0; i < outcome.score.judgements.size(); ++i) {
+      const Judgement& judgement = outcome.score.judgements[i];
+      if (judgement.verdict != Verdict::false_positive) continue;
+      const std::string& claimed = outcome.result.detections[i].object;
+      const std::string truth = judgement.truth >= 0 && judgement.iou > 0
+                                    ? objects[static_cast<std::size_t>(judgement.truth)].name
+                                    : none;
+      const bool fits = judgement.iou >= 0.5;
+      if (truth == claimed)
+        ++(fits ? twice : places)[claimed];
+      else if (fits)
+        ++names[claimed + " for " + truth];
+      else
+        ++nothing[claimed];
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& [what, counts] :
+       {std::pair("Missed", &missed), std::pair("Wrong name", &names),
+        std::pair("Right name, wrong place", &places), std::pair("Reported twice", &twice),
+        std::pair("Nothing listed there", &nothing)})
+    if (!counts->empty()) lines.push_back(std::string(what) + ": " + in_words(*counts) + ".");
+  return lines;
 }
 
 }  // namespace posevote

@@ -2,14 +2,18 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "posevote/evaluate/dataset.hpp"
 #include "posevote/evaluate/parallel.hpp"
 #include "posevote/evaluate/scorer.hpp"
+#include "posevote/evaluate/silhouette.hpp"
 #include "posevote/model/model_set.hpp"
+#include "posevote/recognize/explain.hpp"
 #include "posevote/recognize/recognizer.hpp"
 #include "posevote/teach/teacher.hpp"
 
@@ -25,7 +29,8 @@ struct RefusedView {
 struct TaughtDataset {
   std::shared_ptr<const ModelSet> models;  ///< view ids are the pictures' paths in the dataset
   std::vector<RefusedView> refused;
-  double time_ms = 0;  ///< of the whole teaching, wall clock
+  std::vector<SilhouetteCase> silhouettes;  ///< of the views whose true silhouette is known
+  double time_ms = 0;                       ///< of the whole teaching, wall clock
 };
 
 /// What came out of one test picture.
@@ -40,12 +45,16 @@ struct Evaluation {
   Dataset dataset;
   std::size_t objects = 0, views = 0, features = 0;  ///< taught
   std::vector<RefusedView> refused;
+  std::vector<SilhouetteCase> silhouettes;
   double teach_ms = 0;
   int jobs = 1;  ///< pictures recognised at a time; more than one makes each of them slower
   std::vector<TestOutcome> outcomes;  ///< one for each test, in their order
   /// Pictures with none of the objects in them, recognised against the same objects; may be empty.
   Dataset negatives;
   std::vector<TestOutcome> negative_outcomes;
+  /// Why an object was found in a picture, or why not; by the picture's path and the object. Only
+  /// of what `explain_worst` was asked for.
+  std::map<std::pair<std::filesystem::path, std::string>, Explanation> explanations;
 };
 
 /// Anything that finds objects in a picture; must be safe to call from many threads.

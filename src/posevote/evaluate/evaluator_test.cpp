@@ -46,6 +46,55 @@ TEST(TeachDataset, FailsForAMissingPicture) {
   EXPECT_THROW(static_cast<void>(teach_dataset(load_dataset(made.folder()), {})), Error);
 }
 
+TEST(TeachDataset, ComparesSilhouettesWithTheTrueOnes) {
+  MadeDataset made(2);
+  made.teach_first_by_background();
+  const Dataset dataset = load_dataset(made.folder());
+  const TaughtDataset taught = teach_dataset(dataset, {});
+  ASSERT_THAT(taught.silhouettes, SizeIs(1));
+  EXPECT_EQ(taught.silhouettes[0].object, "cover-0");
+  EXPECT_GT(taught.silhouettes[0].fit.iou, 0.9);
+  EXPECT_FALSE(taught.silhouettes[0].outline.empty());
+
+  std::filesystem::copy_file(made.folder() / "train/background.png",
+                             made.folder() / "train/cover-0.png",
+                             std::filesystem::copy_options::overwrite_existing);
+  const TaughtDataset refused = teach_dataset(dataset, {});
+  ASSERT_THAT(refused.silhouettes, SizeIs(1));
+  EXPECT_TRUE(refused.silhouettes[0].refused);
+  EXPECT_DOUBLE_EQ(refused.silhouettes[0].fit.iou, 0);
+}
+
+TEST(ExplainWorst, SaysWhyAnObjectWasMissed) {
+  MadeDataset made(2);
+  made.add_test("found", 0);
+  made.add_test("missed", -1, {{"objects", {{{"name", "cover-1"}, {"box", {100, 50, 160, 160}}}}}});
+  const Dataset dataset = load_dataset(made.folder());
+  const TaughtMethod taught(dataset, make_method("default", {}));
+  Evaluation evaluation = taught.evaluate(dataset);
+  taught.explain_worst(evaluation, 0);
+  EXPECT_THAT(evaluation.explanations, IsEmpty());
+  taught.explain_worst(evaluation, 5);
+  ASSERT_THAT(evaluation.explanations, SizeIs(1));
+  const auto& [question, answer] = *evaluation.explanations.begin();
+  EXPECT_EQ(question.second, "cover-1");
+  EXPECT_FALSE(answer.found);
+  EXPECT_EQ(answer.stage, "features");
+}
+
+TEST(ExplainWorst, LeavesOutWhatIsNotTaughtOrCannotBeRead) {
+  MadeDataset made(1);
+  made.add_test("unknown", -1, {{"objects", {{{"name", "other"}, {"box", {0, 0, 50, 50}}}}}});
+  made.add_test("gone", 0);
+  const Dataset dataset = load_dataset(made.folder());
+  std::filesystem::remove(made.folder() / "test-1.png");
+  const TaughtMethod taught(dataset, make_method("default", {}));
+  Evaluation evaluation = taught.evaluate(dataset);
+  EXPECT_EQ(summarize("", dataset, evaluation.outcomes).asked, 2);
+  taught.explain_worst(evaluation, 5);
+  EXPECT_THAT(evaluation.explanations, IsEmpty());
+}
+
 TEST(RunTests, GivesTheSameForAnyNumberOfThreads) {
   MadeDataset made(2);
   for (int i = 0; i < 4; ++i) made.add_test("g", i % 3 - 1);

@@ -83,6 +83,21 @@ class MadeDataset {
     save();
   }
 
+  /// The first object is taught from a picture of its cover on a ground, the ground alone, and its
+  /// true silhouette.
+  void teach_first_by_background() {
+    cv::Mat ground(240, 320, CV_8UC3), mask = cv::Mat::zeros(240, 320, CV_8U);
+    cv::RNG(5).fill(ground, cv::RNG::NORMAL, 150, 3);
+    cv::imwrite((folder() / "train/background.png").string(), ground);
+    draw_cover(0).copyTo(ground(cv::Rect(80, 40, 160, 160)));
+    mask(cv::Rect(80, 40, 160, 160)).setTo(255);
+    cv::imwrite((folder() / "train/cover-0.png").string(), ground);
+    cv::imwrite((folder() / "train/truth.png").string(), mask);
+    document_["objects"][0]["views"][0].update(
+        nlohmann::json{{"background", "train/background.png"}, {"truth_mask", "train/truth.png"}});
+    save();
+  }
+
   [[nodiscard]] std::filesystem::path folder() const { return folder_.path(); }
   nlohmann::json& document() { return document_; }
   void save() { std::ofstream(folder() / "dataset.json") << document_.dump(1); }

@@ -1,6 +1,32 @@
 #include "posevote/evaluate/method.hpp"
 
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "posevote/core/error.hpp"
+#include "posevote/evaluate/cases.hpp"
+#include "posevote/recognize/trace.hpp"
+
 namespace posevote {
+namespace {
+
+// Of the objects that are taught; none for a picture that cannot be read.
+std::vector<Explanation> explain_all(const Recognizer& recognizer,
+                                     const std::filesystem::path& picture,
+                                     const std::set<std::string>& objects) try {
+  const Trace trace = recognizer.trace(read_dataset_image({}, picture));
+  std::vector<Explanation> explanations;
+  for (const ObjectModel& known : trace.models->objects())
+    if (objects.contains(known.name))
+      explanations.push_back(explain(trace, recognizer.options(), known.name));
+  return explanations;
+} catch (const Error& error) {
+  if (error.code() != ErrorCode::unreadable_image) throw;
+  return {};
+}
+
+}  // namespace
 
 Progress task(const TaskProgress& progress, const std::string& name) {
   if (!progress) return {};
@@ -41,6 +67,27 @@ Evaluation TaughtMethod::evaluate(const Dataset& dataset, const Dataset& negativ
   evaluation.negatives = negatives;
   evaluation.negative_outcomes = run(negatives);
   return evaluation;
+}
+
+void TaughtMethod::explain_worst(Evaluation& evaluation, std::size_t max_cases) const {
+  std::map<std::filesystem::path, std::set<std::string>> questions;
+  for (const CaseList& list : worst_cases(evaluation))
+    for (std::size_t i = 0; i < std::min(max_cases, list.cases.size()); ++i) {
+      auto [picture, object] = question_of(list.cases[i]);
+      questions[std::move(picture)].insert(std::move(object));
+    }
+  const std::vector<std::pair<std::filesystem::path, std::set<std::string>>> pictures(
+      questions.begin(), questions.end());
+  std::vector<std::vector<Explanation>> answers(pictures.size());
+  parallel_for(
+      pictures.size(), method_.jobs,
+      [&](std::size_t i) {
+        answers[i] = explain_all(recognizer_, pictures[i].first, pictures[i].second);
+      },
+      task(method_.progress, evaluation.dataset.name + ": explaining"));
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    for (Explanation& answer : answers[i])
+      evaluation.explanations[{pictures[i].first, answer.object}] = std::move(answer);
 }
 
 }  // namespace posevote

@@ -38,6 +38,10 @@ class TaughtMethod {
   [[nodiscard]] std::vector<TestOutcome> run(const Dataset& tests) const;
   [[nodiscard]] Evaluation evaluate(const Dataset& dataset, const Dataset& negatives = {}) const;
 
+  /// Adds to an evaluation by this method why its worst cases came out as they did: `max_cases` of
+  /// each list of `worst_cases`. Each of their pictures is recognised once more.
+  void explain_worst(Evaluation& evaluation, std::size_t max_cases) const;
+
   [[nodiscard]] const Recognizer& recognizer() const { return recognizer_; }
   [[nodiscard]] const TaughtDataset& taught() const { return taught_; }
 

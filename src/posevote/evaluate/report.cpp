@@ -43,7 +43,14 @@ overflow:hidden}figcaption{padding:.6rem .8rem;font-size:.85rem;overflow-wrap:an
 .picture{position:relative}.picture img{display:block;width:100%;height:auto}
 .picture svg{position:absolute;inset:0;width:100%;height:100%}
 .picture polygon,.picture rect{fill:none;stroke-width:2.5px;vector-effect:non-scaling-stroke}
-.claim{stroke:#ff3b47}.truth{stroke:#35d08a;stroke-dasharray:7 4}
+.picture .claim{stroke:#ff3b47}.picture .truth{stroke:#35d08a;stroke-dasharray:7 4}
+.picture .pose{stroke:#ffb02e}.match{fill:none;stroke:#3ddcff;stroke-width:1.5px;
+vector-effect:non-scaling-stroke}.vote{fill:#e45cff;fill-opacity:.6}.agree{fill:#ffb02e}
+.evidence{display:none}figure:has(details[open]) .evidence{display:inline}
+figure:has(details[open]) img{filter:grayscale(1) brightness(.65)}
+details{margin-top:.4rem}summary{cursor:pointer;color:var(--c0)}
+details table{font-size:.8rem;margin:.3rem 0}details td{padding:.1rem .6rem;white-space:normal}
+details p{margin:.2rem 0}
 )";
 
 std::string wrap(const std::string& tag, const std::string& css, const std::string& content) {
@@ -84,30 +91,38 @@ std::string recall_plot(const Evaluation& evaluation) {
   return rows.empty() ? "" : interval_svg("Recall by group, with 95 % interval", rows);
 }
 
-std::string gallery(const std::string& title, const std::vector<Case>& cases,
-                    const ReportOptions& options) {
-  if (cases.empty()) return "";
-  const std::size_t shown = std::min(cases.size(), static_cast<std::size_t>(options.max_cases));
-  std::string figures;
-  for (std::size_t i = 0; i < shown; ++i)
-    figures += case_figure(cases[i], options.picture_width, options.jpeg_quality);
-  std::string heading = title + " (" + std::to_string(cases.size());
-  if (shown < cases.size()) heading += ", the first " + std::to_string(shown) + " shown";
-  return "<h3>" + escape_html(heading + ")") + "</h3>\n" + wrap("div", "cases", figures);
-}
-
-std::string galleries(const Evaluation& e, const ReportOptions& options) {
-  return gallery("False positives, surest first",
-                 cases_of(e.dataset, e.outcomes, Verdict::false_positive), options) +
-         gallery("False positives on " + e.negatives.name,
-                 cases_of(e.negatives, e.negative_outcomes, Verdict::false_positive), options) +
-         gallery("Missed, best visible first", missed_cases(e.dataset, e.outcomes), options) +
-         gallery("Named as the twin", cases_of(e.dataset, e.outcomes, Verdict::twin), options);
-}
-
 std::string titled(Table table, const std::string& title) {
   table.title = title;
   return table.to_html();
+}
+
+std::string gallery(const Evaluation& evaluation, const CaseList& list,
+                    const ReportOptions& options) {
+  const std::size_t shown = std::min(list.cases.size(), options.max_cases);
+  std::string figures;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto why = evaluation.explanations.find(question_of(list.cases[i]));
+    figures +=
+        case_figure(list.cases[i], why == evaluation.explanations.end() ? nullptr : &why->second,
+                    options.picture);
+  }
+  std::string heading = list.title + " (" + std::to_string(list.cases.size());
+  if (shown < list.cases.size()) heading += ", the first " + std::to_string(shown) + " shown";
+  return "<h3>" + escape_html(heading + ")") + "</h3>\n" + wrap("div", "cases", figures);
+}
+
+std::string silhouettes(const Evaluation& evaluation, const ReportOptions& options) {
+  if (evaluation.silhouettes.empty()) return "";
+  std::string figures;
+  for (const SilhouetteCase& item :
+       worst_silhouettes(evaluation.silhouettes, options.max_silhouettes))
+    figures += silhouette_figure(evaluation.dataset, item, options.picture);
+  return wrap("div", "plain",
+              titled(silhouette_table(evaluation.dataset.name, evaluation.silhouettes),
+                     "Taught silhouettes")) +
+         "<p class=\"note\">The views that fit worst: red is what was taught, dashed green the "
+         "true silhouette.</p>\n" +
+         wrap("div", "cases", figures);
 }
 
 std::string evaluation_html(const Evaluation& evaluation, std::size_t number,
@@ -127,7 +142,9 @@ std::string evaluation_html(const Evaluation& evaluation, std::size_t number,
   if (!confusion.rows.empty()) html += wrap("div", "plain", titled(confusion, "Confusions"));
   if (!evaluation.refused.empty())
     html += wrap("div", "plain", titled(refused_table(evaluation), "Views that were refused"));
-  return html + galleries(evaluation, options);
+  html += silhouettes(evaluation, options);
+  for (const CaseList& list : worst_cases(evaluation)) html += gallery(evaluation, list, options);
+  return html;
 }
 
 std::string section_html(const ReportSection& section) {
@@ -137,6 +154,37 @@ std::string section_html(const ReportSection& section) {
   std::string charts;
   for (const Chart& chart : section.charts) charts += chart.to_svg();
   return charts.empty() ? html : html + wrap("div", "charts", charts);
+}
+
+// The whole in one paragraph.
+std::string in_short(const std::vector<Evaluation>& evaluations) {
+  Summary all, negatives;
+  for (const Evaluation& evaluation : evaluations) {
+    const Summary s = summarize("", evaluation.dataset, evaluation.outcomes);
+    all.images += s.images;
+    all.asked += s.asked;
+    all.right += s.right;
+    all.false_positives += s.false_positives;
+    const Summary n = summarize("", evaluation.negatives, evaluation.negative_outcomes);
+    negatives.images += n.images;
+    negatives.false_positives += n.false_positives;
+  }
+  const auto number = [](int count) { return std::to_string(count); };
+  std::string text = "**In short:** of " + number(all.asked) + " objects in " + number(all.images) +
+                     " pictures of " + std::to_string(evaluations.size()) + " data sets " +
+                     number(all.right) + " are found (" + percent(all.recall()) + "); " +
+                     number(all.false_positives) + " answers are false";
+  if (negatives.images > 0)
+    text += ", and " + number(negatives.false_positives) + " on " + number(negatives.images) +
+            " pictures that show none of the objects";
+  return text + ".";
+}
+
+void append_rows(Table& table, const Table& more) {
+  if (table.rows.empty())
+    table = more;
+  else
+    table.rows.insert(table.rows.end(), more.rows.begin(), more.rows.end());
 }
 
 ChartSeries alarms_over_threshold(const std::string& name,
@@ -245,17 +293,23 @@ std::filesystem::path write_report(const std::string& html, const std::filesyste
 std::string make_markdown(const std::vector<Evaluation>& evaluations,
                           const std::vector<ReportSection>& sections) {
   std::string text =
-      "# Accuracy\n\nWritten by `posevote evaluate DATASET... --markdown FILE`. Right: the name of "
-      "a "
-      "listed object not found before, and boxes that overlap by at least one half (intersection "
-      "over union, inside the picture); any other answer is a false positive, except on objects "
-      "that are optional or hidden to more than 85 %. 95 %: Wilson's interval of the recall.\n\n";
-  text += set_table(evaluations).to_markdown();
+      "# Accuracy\n\nWritten by `posevote evaluate DATASET... --markdown FILE`.\n\n" +
+      in_short(evaluations) + "\n\n" + set_table(evaluations).to_markdown();
+  text +=
+      "\n**Right** is the name of a listed object that was not found before, with a box that "
+      "overlaps its box by at least one half (intersection over union, inside the picture). "
+      "Any other answer is **false**, except on objects that are optional or hidden to more "
+      "than 85 %.\n";
+  Table silhouettes;
+  for (const Evaluation& evaluation : evaluations)
+    append_rows(silhouettes, silhouette_table(evaluation.dataset.name, evaluation.silhouettes));
+  if (!silhouettes.rows.empty()) text += "\n## Taught silhouettes\n\n" + silhouettes.to_markdown();
+  text += "\n## Time\n\n" + set_time_table(evaluations).to_markdown();
   for (const Evaluation& evaluation : evaluations) {
     text += "\n## " + evaluation.dataset.name + "\n\n" + evaluation.dataset.description + "\n\n" +
-            group_table(evaluation).to_markdown() + "\n" + time_table(evaluation).to_markdown();
-    const Table confusion = confusion_table(evaluation);
-    if (!confusion.rows.empty()) text += "\n" + confusion.to_markdown();
+            group_table(evaluation).to_markdown();
+    for (const std::string& mistake : mistakes_of(evaluation)) text += "\n- " + mistake;
+    text += "\n";
   }
   for (const ReportSection& section : sections) {
     text += "\n## " + section.title + "\n\n" + (section.text.empty() ? "" : section.text + "\n\n");

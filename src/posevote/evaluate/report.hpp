@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "posevote/evaluate/cases.hpp"
 #include "posevote/evaluate/chart.hpp"
 #include "posevote/evaluate/evaluator.hpp"
 #include "posevote/evaluate/table.hpp"
@@ -25,9 +26,9 @@ struct ReportSection {
 [[nodiscard]] std::string to_json(const ReportSection& section);
 
 struct ReportOptions {
-  int max_cases = 24;       ///< pictures of each kind: false, missed, twins
-  int picture_width = 480;  ///< px; wider pictures are reduced
-  int jpeg_quality = 82;
+  std::size_t max_cases = 24;       ///< pictures of each kind: false, missed, twins
+  std::size_t max_silhouettes = 4;  ///< pictures of the silhouettes that fit worst
+  PictureOptions picture;
 };
 
 /// Precision over recall for each ranking.
@@ -37,7 +38,8 @@ struct ReportOptions {
 [[nodiscard]] Chart false_alarm_chart(const Evaluation& evaluation);
 
 /// The whole page as text: style, plots (SVG) and pictures (JPEG in base64) inline. Worst cases
-/// first: false positives by falling significance, then missed objects by falling visibility.
+/// first, with what `explain` says of them (see `TaughtMethod::explain_worst`): false positives by
+/// falling significance, then missed objects by falling visibility.
 /// Deterministic. Pictures of the data sets are read again; one that cannot be read is left out.
 [[nodiscard]] std::string make_report(const std::vector<Evaluation>& evaluations,
                                       const std::vector<ReportSection>& sections = {},

@@ -10,6 +10,7 @@
 #include "posevote/core/error.hpp"
 #include "posevote/evaluate/cases.hpp"
 #include "posevote/evaluate/made_dataset.hpp"
+#include "posevote/evaluate/method.hpp"
 
 namespace posevote {
 namespace {
@@ -68,7 +69,7 @@ TEST(CaseFigure, OfAPictureThatIsGoneIsLeftOut) {
   Evaluation evaluation = evaluate_made(made_two());
   evaluation.dataset.tests[0].image = "gone.png";
   const auto missed = missed_cases(evaluation.dataset, evaluation.outcomes);
-  EXPECT_EQ(case_figure(missed[0], 100, 80), "");
+  EXPECT_EQ(case_figure(missed[0], nullptr, {}), "");
 }
 
 TEST(JpegDataUrl, HoldsTheWholePicture) {
@@ -86,6 +87,35 @@ TEST(MakeReport, IsOnePageThatNeedsNothingElse) {
   EXPECT_THAT(html, HasSubstr("cover-1 &lt;b&gt;"));
   EXPECT_THAT(html, Not(HasSubstr("cover-1 <b>")));
   EXPECT_EQ(make_report({evaluate_made(made_two())}), html);
+}
+
+// A right answer, a missed object with what `explain` says, a taught silhouette.
+Evaluation evaluate_explained(MadeDataset& made) {
+  made.teach_first_by_background();
+  made.add_test("found", 0);
+  made.add_test("missed", -1, {{"objects", {{{"name", "cover-1"}, {"box", {100, 50, 160, 160}}}}}});
+  const Dataset dataset = load_dataset(made.folder());
+  const TaughtMethod taught(dataset, make_method("default", {}));
+  Evaluation evaluation = taught.evaluate(dataset);
+  taught.explain_worst(evaluation, 5);
+  return evaluation;
+}
+
+TEST(MakeReport, SaysOfEachWorstCaseWhatExplainSays) {
+  MadeDataset made(2);
+  const std::string html = make_report({evaluate_explained(made)});
+  EXPECT_EQ(count(html, "<details>"), 1);
+  EXPECT_THAT(html, HasSubstr("<summary>Not found: nothing in the picture has texture enough"));
+  EXPECT_THAT(html, HasSubstr("<td>features of the picture</td><td>0</td>"));
+  EXPECT_THAT(html, HasSubstr("<code>feature.surf.hessian_threshold</code>"));
+}
+
+TEST(MakeReport, ShowsTheSilhouettesThatWereTaught) {
+  MadeDataset made(2);
+  const std::string html = make_report({evaluate_explained(made)});
+  EXPECT_THAT(html, HasSubstr("Taught silhouettes"));
+  EXPECT_THAT(html, HasSubstr("<b>cover-0</b> IoU "));
+  EXPECT_EQ(count(html, "<figure>"), 2) << "the silhouette and the missed object";
 }
 
 TEST(MakeReport, ShowsNoMorePicturesThanAskedFor) {
@@ -135,14 +165,15 @@ std::string open_in_browser(const std::filesystem::path& page, const std::filesy
 
 TEST(MakeReport, LoadsEveryPictureInABrowser) {
   if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "chromium is not here";
-  std::string html = make_report({evaluate_made(made_two())});
+  MadeDataset made(2);
+  std::string html = make_report({evaluate_made(made_two()), evaluate_explained(made)});
   html.replace(html.rfind("</body>"), 0, R"(<script>document.body.dataset.loaded=
       [...document.images].filter(i => i.complete && i.naturalWidth > 0).length + "/" +
       document.images.length</script>)");
   const TemporaryFolder folder;
   const std::string page =
       open_in_browser(write_report(html, folder.path() / "report"), folder.path());
-  EXPECT_THAT(page, HasSubstr("data-loaded=\"4/4\""));
+  EXPECT_THAT(page, HasSubstr("data-loaded=\"6/6\""));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "posevote/evaluate/results.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -131,6 +132,52 @@ std::string lines_of(const Dataset& dataset, const std::vector<TestOutcome>& out
   return text;
 }
 
+std::string jobs_note(int jobs) {
+  if (jobs < 2) return "";
+  return std::to_string(jobs) +
+         " pictures were recognised at a time, which makes each slower; --jobs 1 measures the time "
+         "of one alone.";
+}
+
+void add_counts(Summary& sum, const Summary& more) {
+  sum.images += more.images;
+  sum.asked += more.asked;
+  sum.right += more.right;
+  sum.false_positives += more.false_positives;
+  sum.twins += more.twins;
+}
+
+// Without what cannot be summed over sets: objects, views, recall at zero, times.
+std::vector<std::string> set_row(const Summary& s, const Summary& negative) {
+  return {s.name,
+          "",
+          "",
+          std::to_string(s.images),
+          std::to_string(s.asked),
+          std::to_string(s.right),
+          percent(s.recall()),
+          s.asked > 0 ? interval_text(s.recall_interval()) : "-",
+          std::to_string(s.false_positives),
+          std::to_string(s.twins),
+          negative.images > 0
+              ? std::to_string(negative.false_positives) + " / " + std::to_string(negative.images)
+              : "-",
+          "",
+          "",
+          ""};
+}
+
+ordered_json silhouettes_json(const std::vector<SilhouetteCase>& cases) {
+  ordered_json list = ordered_json::array();
+  for (const SilhouetteCase& one : cases)
+    list.push_back({{"object", one.object},
+                    {"image", one.image},
+                    {"iou", rounded(one.fit.iou, 10000)},
+                    {"wrong_share", rounded(one.fit.wrong_share, 10000)},
+                    {"shadow_share", rounded(one.fit.shadow_share, 10000)}});
+  return list;
+}
+
 }  // namespace
 
 Table group_table(const Evaluation& evaluation) {
@@ -156,37 +203,53 @@ Table time_table(const Evaluation& evaluation) {
   for (const Summary& s : groups_and_whole(evaluation))
     table.rows.push_back(
         {s.name, text(s.detect), text(s.match), text(s.vote), text(s.verify), text(s.total)});
-  if (evaluation.jobs > 1)
-    table.note = std::to_string(evaluation.jobs) +
-                 " pictures were recognised at a time, which makes each slower; --jobs 1 measures "
-                 "the time of one alone.";
+  table.note = jobs_note(evaluation.jobs);
   return table;
 }
 
 Table set_table(const std::vector<Evaluation>& evaluations) {
   Table table;
-  table.header = {"data set",    "objects",    "views",    "refused",  "images", "asked",
-                  "right",       "recall",     "95 %",     "false",    "twins",  "precision",
-                  "neg. images", "neg. false", "R@0 prob", "R@0 sign", "ms",     "p95"};
+  table.header = {"data set", "objects", "views", "pictures",   "asked", "right", "recall",
+                  "95 %",     "false",   "twins", "neg. false", "R@0",   "ms",    "p95"};
+  Summary all;
+  Summary all_negative;
   for (const Evaluation& evaluation : evaluations) {
-    const Summary s = summarize("all", evaluation.dataset, evaluation.outcomes);
+    const Summary s = summarize(evaluation.dataset.name, evaluation.dataset, evaluation.outcomes);
     const Summary negative = summarize("", evaluation.negatives, evaluation.negative_outcomes);
-    const bool has_negatives = negative.images > 0;
-    table.rows.push_back(
-        {evaluation.dataset.name, std::to_string(evaluation.objects),
-         std::to_string(evaluation.views), std::to_string(evaluation.refused.size()),
-         std::to_string(s.images), std::to_string(s.asked), std::to_string(s.right),
-         percent(s.recall()), s.asked > 0 ? interval_text(s.recall_interval()) : "-",
-         std::to_string(s.false_positives), std::to_string(s.twins), percent(s.precision()),
-         has_negatives ? std::to_string(negative.images) : "-",
-         has_negatives ? std::to_string(negative.false_positives) : "-",
-         percent(recall_at_zero(evaluation, ranking("probability"))),
-         percent(recall_at_zero(evaluation, ranking("significance"))), fixed(s.total.median_ms, 0),
-         fixed(s.total.p95_ms, 0)});
+    add_counts(all, s);
+    add_counts(all_negative, negative);
+    auto row = set_row(s, negative);
+    row[1] = std::to_string(evaluation.objects);
+    row[2] = std::to_string(evaluation.views);
+    if (!evaluation.refused.empty())
+      row[2] += " (" + std::to_string(evaluation.refused.size()) + " refused)";
+    row[11] = percent(recall_at_zero(evaluation, ranking("probability")));
+    row[12] = fixed(s.total.median_ms, 0);
+    row[13] = fixed(s.total.p95_ms, 0);
+    table.rows.push_back(std::move(row));
   }
+  all.name = "all";
+  if (evaluations.size() > 1) table.rows.push_back(set_row(all, all_negative));
   table.note =
-      "R@0: recall at the threshold, chosen afterwards, that lets no false positive through on the "
-      "set and the negatives together, by probability and by significance.";
+      "95 %: Wilson's interval of the recall. neg. false: false answers on how many pictures "
+      "without any of the objects. R@0: recall at the probability, chosen afterwards, that lets no "
+      "false answer through on the set and those pictures together. ms: median and 95th percentile "
+      "per picture.";
+  return table;
+}
+
+Table set_time_table(const std::vector<Evaluation>& evaluations) {
+  Table table;
+  table.header = {"median ms", "detect", "match", "vote", "verify", "total"};
+  int jobs = 1;
+  for (const Evaluation& evaluation : evaluations) {
+    const Summary s = summarize(evaluation.dataset.name, evaluation.dataset, evaluation.outcomes);
+    table.rows.push_back({s.name, fixed(s.detect.median_ms, 1), fixed(s.match.median_ms, 1),
+                          fixed(s.vote.median_ms, 1), fixed(s.verify.median_ms, 1),
+                          fixed(s.total.median_ms, 1)});
+    jobs = std::max(jobs, evaluation.jobs);
+  }
+  table.note = jobs_note(jobs);
   return table;
 }
 
@@ -230,6 +293,8 @@ std::string to_json(const Evaluation& evaluation) {
       {"all", summary_json(summarize("all", evaluation.dataset, evaluation.outcomes))},
       {"groups", groups},
       {"recall_without_false_positives", zero}};
+  if (!evaluation.silhouettes.empty())
+    document["silhouettes"] = silhouettes_json(evaluation.silhouettes);
   if (!evaluation.negative_outcomes.empty())
     document["negatives"] = summary_json(
         summarize(evaluation.negatives.name, evaluation.negatives, evaluation.negative_outcomes));

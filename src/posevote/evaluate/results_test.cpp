@@ -65,10 +65,38 @@ TEST(ConfusionTable, ShowsWhoTookThePlaceOfWhom) {
 
 TEST(SetTable, CountsNegativesForTheThresholdWithoutFalsePositives) {
   Evaluation evaluation = small_evaluation();
-  const auto recall_at_zero = [&] { return set_table({evaluation}).rows[0][14]; };
+  const auto recall_at_zero = [&] { return set_table({evaluation}).rows[0][11]; };
   EXPECT_EQ(recall_at_zero(), "0.0 %");
   evaluation.negative_outcomes.clear();
   EXPECT_EQ(recall_at_zero(), "33.3 %");
+}
+
+TEST(SetTable, SumsSeveralSets) {
+  const Evaluation evaluation = small_evaluation();
+  EXPECT_EQ(set_table({evaluation}).rows.size(), 1U);
+  const Table table = set_table({evaluation, evaluation});
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_THAT(table.rows[2], ElementsAre("all", "", "", "2", "6", "2", "33.3 %", "9.7..70.0", "2",
+                                         "0", "2 / 2", "", "", ""));
+}
+
+TEST(MistakesOf, NamesEachKindOnce) {
+  EXPECT_THAT(mistakes_of(small_evaluation()),
+              ElementsAre("Missed: pan, tea.", "Wrong name: book for tea."));
+  EXPECT_THAT(mistakes_of(Evaluation()), IsEmpty());
+}
+
+TEST(MistakesOf, TellsAWrongPlaceFromASecondReportAndFromNothing) {
+  Evaluation evaluation = small_evaluation();
+  TestOutcome& outcome = evaluation.outcomes[0];
+  outcome.result.detections = {
+      detection("mug", {0, 0, 10, 10}, 0.9), detection("mug", {0, 1, 10, 10}, 0.8),
+      detection("tea", {24, 4, 10, 10}, 0.7), detection("tea", {23, 4, 10, 10}, 0.6),
+      detection("pan", {80, 80, 10, 10}, 0.5)};
+  outcome.score = score_detections(outcome.result, evaluation.dataset.tests[0], evaluation.dataset);
+  EXPECT_THAT(mistakes_of(evaluation),
+              ElementsAre("Missed: pan, tea.", "Right name, wrong place: tea 2.",
+                          "Reported twice: mug.", "Nothing listed there: pan."));
 }
 
 TEST(RankWithNegatives, TakesOnlyFalseOnesFromTheNegatives) {

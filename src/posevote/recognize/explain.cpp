@@ -140,4 +140,22 @@ Explanation explain(const Trace& trace, const RecognizeOptions& options,
   return result;
 }
 
+std::vector<std::pair<std::string, std::string>> stages_of(const Explanation& e) {
+  std::vector<std::pair<std::string, std::string>> stages{
+      {"features of the picture", number(e.scene_features)},
+      {"that look like one of the object's", number(e.similar)},
+      {"more like it than like anything else", number(e.matched)},
+      {"most of them voting for one pose", number(e.largest_bin)},
+      {"poses with enough votes", number(e.clusters)}};
+  if (!e.best) return stages;
+  stages.emplace_back("features that agree on the strongest pose", number(e.best->inliers));
+  stages.emplace_back("digits of the number of false alarms",
+                      cv::format("%.1f", -e.best->log10_false_alarms));
+  if (e.best->probability > 0)
+    stages.emplace_back("how probable",
+                        cv::format("%.0f %% this object, %.0f %% in this place",
+                                   100 * e.best->presence.object, 100 * e.best->presence.place));
+  return stages;
+}
+
 }  // namespace posevote

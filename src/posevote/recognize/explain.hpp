@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "posevote/recognize/recognizer.hpp"
@@ -40,5 +41,9 @@ struct Explanation {
 /// recogniser's.
 [[nodiscard]] Explanation explain(const Trace& trace, const RecognizeOptions& options,
                                   const std::string& object);
+
+/// What the explanation counts, for people: (what, how much), in the order of the stages.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> stages_of(
+    const Explanation& explanation);
 
 }  // namespace posevote

@@ -30,13 +30,17 @@ double log_prior_of_shading(double s, double level, const ShadowOptions& options
 }
 
 // Density of colour `p` for a background `b` whose shading is near `shading`: normal about the line
-// s * b in the plane across it, and along it about the shading of the surroundings.
+// s * b in the plane across it, and along it about the shading of the surroundings. Near black the
+// colour is the camera's: its offset, stray light and JPEG.
 double shadow_density(const cv::Vec3f& p, const cv::Vec3f& b, const cv::Vec3f& variance,
                       double shading, const ShadowOptions& options) {
+  constexpr double kOffset = 1, kDark = 16;  // levels
+  const double level = shading * (b[0] + b[1] + b[2]) / 3;
+  const double offset = kOffset * std::clamp(1 - level / kDark, 0.0, 1.0);
   double up = 0, uu = 0, pp = 0, volume = 1;
   for (int c = 0; c < 3; ++c) {
     const double tint = options.tint * shading * b[c];
-    const double q2 = variance[c] * 0.5 * (1 + shading * shading) + tint * tint;
+    const double q2 = variance[c] * 0.5 * (1 + shading * shading) + tint * tint + offset * offset;
     up += p[c] * b[c] / q2;
     uu += b[c] * b[c] / q2;
     pp += p[c] * p[c] / q2;

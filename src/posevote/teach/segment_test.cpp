@@ -62,6 +62,21 @@ TEST(SegmentByBackground, LeavesOutADeepShadowOnPlainGround) {
   EXPECT_GT(made::iou(mask, s.truth), 0.95);
 }
 
+// Near black the colour is the camera's: its offset and JPEG, not the ground's.
+TEST(SegmentByBackground, LeavesOutABlackShadowOfAnotherTintOnDarkGround) {
+  auto s = made::scene(cv::Rect(120, 70, 80, 100), 0);
+  s.background = s.background * 0.15;
+  cv::Mat shaded = s.picture * 0.15;
+  made::cast_shadow(shaded, {225, 165}, {60, 22}, 0.1);
+  cv::Mat black;
+  cv::cvtColor(shaded, black, cv::COLOR_BGR2GRAY);
+  shaded.setTo(cv::Scalar(4, 1, 2), black < 6);
+  s.picture.copyTo(shaded, s.truth);
+  const cv::Mat mask = segment_by_background(shaded, s.background);
+  EXPECT_LT(cv::countNonZero(mask & ~s.truth), 0.05 * cv::countNonZero(s.truth));
+  EXPECT_GT(made::iou(mask, s.truth), 0.95);
+}
+
 // As dark as a shadow and of the ground's colour, but without the ground's texture.
 TEST(SegmentByBackground, KeepsAPlainObjectOfTheColourOfAShadow) {
   auto s = made::scene();

@@ -6,6 +6,23 @@ file(MAKE_DIRECTORY ${WORK}/src)
 foreach(package posevote_msgs posevote_ros)
   file(CREATE_LINK ${SOURCE}/ros/${package} ${WORK}/src/${package} SYMBOLIC)
 endforeach()
+
+# Debian has no vision_msgs: those of ROS Noetic that are used, word for word.
+function(write_message name)
+  string(JOIN "\n" text ${ARGN})
+  file(WRITE ${WORK}/src/vision_msgs/msg/${name}.msg "${text}\n")
+endfunction()
+write_message(BoundingBox2D "geometry_msgs/Pose2D center" "float64 size_x" "float64 size_y")
+write_message(BoundingBox3D "geometry_msgs/Pose center" "geometry_msgs/Vector3 size")
+write_message(ObjectHypothesisWithPose "int64 id" "float64 score" "geometry_msgs/PoseWithCovariance pose")
+write_message(Detection2D "Header header" "ObjectHypothesisWithPose[] results" "BoundingBox2D bbox"
+  "sensor_msgs/Image source_img")
+write_message(Detection2DArray "Header header" "Detection2D[] detections")
+write_message(Detection3D "Header header" "ObjectHypothesisWithPose[] results" "BoundingBox3D bbox"
+  "sensor_msgs/PointCloud2 source_cloud")
+write_message(Detection3DArray "Header header" "Detection3D[] detections")
+file(COPY ${CMAKE_CURRENT_LIST_DIR}/ros1_vision_msgs/ DESTINATION ${WORK}/src/vision_msgs)
+
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 run("catkin_make" catkin_make -C ${WORK} -j${cores} ${options} -DCMAKE_PREFIX_PATH=${PREFIX}
   -DCMAKE_BUILD_TYPE=Release -DPOSEVOTE_DEMO=${SOURCE}/data/demo)

@@ -23,6 +23,9 @@ find_package(vision_msgs QUIET) # not in Debian
 if(vision_msgs_FOUND)
   target_compile_definitions(posevote_ros_node PRIVATE POSEVOTE_WITH_VISION_MSGS)
   target_include_directories(posevote_ros_node SYSTEM PRIVATE ${vision_msgs_INCLUDE_DIRS})
+  if(vision_msgs_EXPORTED_TARGETS) # in the same workspace
+    add_dependencies(posevote_ros_node ${vision_msgs_EXPORTED_TARGETS})
+  endif()
 endif()
 
 add_executable(posevote_node ros1/main.cpp)

@@ -86,6 +86,7 @@ void fill_detection(Message& message, const FoundObject& object) {
   message.frame = object.frame;
   message.has_pose = object.pose.has_value();
   message.pose_ambiguous = object.pose && object.pose->other;
+  message.pose_flat = object.pose && object.pose->flat;
   const ObjectPose none;
   const ObjectPose& pose = object.pose ? *object.pose : none;
   fill_pose(message.pose, pose.pose);

@@ -47,7 +47,7 @@ struct DetectionMessage {
   std::array<double, 9> homography;
   std::vector<Point2> outline;
   Box box;
-  bool confirmed, has_pose, pose_ambiguous;
+  bool confirmed, has_pose, pose_ambiguous, pose_flat;
   PoseMessage pose, other_pose;
 };
 struct DetectionArray {
@@ -115,7 +115,7 @@ TEST(FillDetections, CopiesEverything) {
   EXPECT_EQ(mug.outline[2].y, 6);
   EXPECT_EQ(mug.box.height, 40);
   EXPECT_EQ(mug.track, 7u);
-  EXPECT_TRUE(mug.has_pose && mug.pose_ambiguous && mug.confirmed);
+  EXPECT_TRUE(mug.has_pose && mug.pose_ambiguous && mug.pose_flat && mug.confirmed);
   EXPECT_EQ(mug.pose.position.z, 3);
   EXPECT_EQ(mug.pose.orientation.w, 1);
 }
@@ -125,7 +125,7 @@ TEST(FillDetections, GivesUnitQuaternionsWhereThereIsNoPose) {
   DetectionArray message;
   fill_detections(message, findings(), 0);
   const DetectionMessage& book = message.detections[1];
-  EXPECT_FALSE(book.has_pose || book.pose_ambiguous);
+  EXPECT_FALSE(book.has_pose || book.pose_ambiguous || book.pose_flat);
   EXPECT_EQ(book.pose.orientation.w, 1);
   EXPECT_EQ(book.other_pose.orientation.w, 1);
 }

@@ -64,11 +64,15 @@ OnConflict parse_conflict(const std::string& text) {
               "on_conflict is refuse, replace or merge, not '" + text + "'");
 }
 
-std::shared_ptr<const View> find_view(const ModelSet& models, const Detection& detection) {
+const ObjectModel* find_object(const ModelSet& models, const std::string& name) {
   for (const ObjectModel& object : models.objects())
-    if (object.name == detection.object)
-      for (const auto& view : object.views)
-        if (view->id == detection.view) return view;
+    if (object.name == name) return &object;
+  return nullptr;
+}
+
+const View* find_view(const ObjectModel& object, const std::string& id) {
+  for (const auto& view : object.views)
+    if (view->id == id) return view.get();
   return nullptr;
 }
 
@@ -141,9 +145,11 @@ void ObjectRecognition::add_poses(const Snapshot& with, const std::optional<Came
   const auto models = with.recognizer->models();
   for (FoundObject& object : findings.objects) try {
       const auto height = with.heights.find(object.detection.object);
-      const auto view = find_view(*models, object.detection);
+      const ObjectModel* model = find_object(*models, object.detection.object);
+      const View* view = model ? find_view(*model, object.detection.view) : nullptr;
       if (height != with.heights.end() && view)
-        object.pose = find_pose(object.detection, *view, height->second, used);
+        object.pose =
+            find_pose(object.detection, *view, height->second, used, reliefs_.find(*model, *view));
       object.outline =
           object.pose ? object.pose->outline
                       : outline_at(object.detection.outline, used, with.options.marker_distance_m);

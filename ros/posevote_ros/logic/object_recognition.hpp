@@ -10,6 +10,7 @@
 
 #include "logic/node_options.hpp"
 #include "logic/pose.hpp"
+#include "logic/relief.hpp"
 #include "logic/teach_session.hpp"
 #include "logic/tracks.hpp"
 #include "posevote/recognize/recognizer.hpp"
@@ -106,8 +107,7 @@ class ObjectRecognition {
   void follow_database();  ///< with mutex_ held
   void make_recognizer(const NodeOptions& options);
   [[nodiscard]] Snapshot snapshot();
-  static void add_poses(const Snapshot& with, const std::optional<Camera>& camera,
-                        Findings& findings);
+  void add_poses(const Snapshot& with, const std::optional<Camera>& camera, Findings& findings);
 
   mutable std::mutex mutex_;
   std::unique_ptr<ObjectStore> store_;
@@ -117,6 +117,8 @@ class ObjectRecognition {
   std::vector<std::string> active_;
   std::shared_ptr<Recognizer> recognizer_;
   bool changed_ = true;  ///< since the last `refresh`
+
+  ReliefCache reliefs_;
 
   std::mutex tracker_mutex_;
   Tracker tracker_;

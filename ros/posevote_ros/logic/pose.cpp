@@ -25,16 +25,33 @@ cv::Matx33d turn_about_vertical(double yaw_deg) {
   return {std::cos(a), 0, std::sin(a), 0, 1, 0, -std::sin(a), 0, std::cos(a)};
 }
 
+cv::Matx33d look_down(double tilt_deg) {
+  const double a = tilt_deg * CV_PI / 180;
+  return {1, 0, 0, 0, std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a)};
+}
+
+/// The view shows the object turned and from above; the object's own frame is upright, its front
+/// towards the viewer.
+cv::Matx33d rotation_of_view(const View& view, const Relief& relief) {
+  const double yaw_deg = std::isnan(view.yaw_deg) ? 0 : view.yaw_deg;
+  return look_down(relief.known ? relief.tilt_deg : 0) * turn_about_vertical(-yaw_deg);
+}
+
+struct Points {
+  std::vector<cv::Point2d> view, scene;  ///< px
+};
+
 /// Matched points, or for a detection without enough of them (none given) corners of its box.
-void collect_points(const Detection& detection, const cv::Rect2d& box,
-                    std::vector<cv::Point2d>& view_points, std::vector<cv::Point2d>& scene_points) {
+Points collect_points(const Detection& detection, const cv::Rect2d& box) {
+  Points points;
   for (const MatchedPoint& match : detection.matches) {
-    view_points.push_back(match.view);
-    scene_points.push_back(match.scene);
+    points.view.push_back(match.view);
+    points.scene.push_back(match.scene);
   }
-  if (view_points.size() >= 4) return;
-  view_points = {box.tl(), {box.x + box.width, box.y}, box.br(), {box.x, box.y + box.height}};
-  cv::perspectiveTransform(view_points, scene_points, detection.scene_from_view);
+  if (points.view.size() >= 4) return points;
+  points.view = {box.tl(), {box.x + box.width, box.y}, box.br(), {box.x, box.y + box.height}};
+  cv::perspectiveTransform(points.view, points.scene, detection.scene_from_view);
+  return points;
 }
 
 /// Such points do not say how the plane is turned about their line.
@@ -45,11 +62,11 @@ bool are_on_a_line(const std::vector<cv::Point2d>& points) {
   return across <= 1e-4 * along;  // variances: a hundredth as wide as long
 }
 
-double mean_squared_error(const std::vector<cv::Point3d>& plane,
+double mean_squared_error(const std::vector<cv::Point3d>& surface,
                           const std::vector<cv::Point2d>& seen, const cv::Mat& rvec,
                           const cv::Mat& tvec, const cv::Matx33d& matrix) {
   std::vector<cv::Point2d> projected;
-  cv::projectPoints(plane, rvec, tvec, matrix, cv::noArray(), projected);
+  cv::projectPoints(surface, rvec, tvec, matrix, cv::noArray(), projected);
   double sum = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const cv::Point2d d = projected[i] - seen[i];
@@ -58,9 +75,11 @@ double mean_squared_error(const std::vector<cv::Point3d>& plane,
   return sum / static_cast<double>(seen.size());
 }
 
-/// Both poses of a plane, the better one first.
-std::vector<Fit> fit_plane(const std::vector<cv::Point3d>& plane,
-                           const std::vector<cv::Point2d>& seen, const cv::Matx33d& matrix) {
+/// What both poses of the plane that is nearest to the surface lead to, the better one first.
+std::vector<Fit> fit_surface(const std::vector<cv::Point3d>& surface,
+                             const std::vector<cv::Point2d>& seen, const cv::Matx33d& matrix) {
+  std::vector<cv::Point3d> plane = surface;
+  for (cv::Point3d& point : plane) point.z = 0;
   std::vector<cv::Mat> rvecs, tvecs;
   try {
     cv::solvePnPGeneric(plane, seen, matrix, cv::noArray(), rvecs, tvecs, false, cv::SOLVEPNP_IPPE);
@@ -70,12 +89,12 @@ std::vector<Fit> fit_plane(const std::vector<cv::Point3d>& plane,
   std::vector<Fit> fits;
   for (std::size_t i = 0; i < rvecs.size(); ++i) {
     cv::Mat rvec = rvecs[i].clone(), tvec = tvecs[i].clone();
-    cv::solvePnPRefineLM(plane, seen, matrix, cv::noArray(), rvec, tvec);
+    cv::solvePnPRefineLM(surface, seen, matrix, cv::noArray(), rvec, tvec);
     Fit fit;
     fit.rotation_vector = cv::Vec3d(rvec);
     cv::Rodrigues(fit.rotation_vector, fit.pose.rotation);
     fit.pose.translation = cv::Vec3d(tvec);
-    fit.squared_error = mean_squared_error(plane, seen, rvec, tvec, matrix);
+    fit.squared_error = mean_squared_error(surface, seen, rvec, tvec, matrix);
     if (std::isfinite(fit.squared_error) && fit.pose.translation[2] > 0) fits.push_back(fit);
   }
   std::stable_sort(fits.begin(), fits.end(),
@@ -155,34 +174,33 @@ cv::Vec4d quaternion(const cv::Matx33d& rotation) {
 }
 
 std::optional<ObjectPose> find_pose(const Detection& detection, const View& view, double height_m,
-                                    const Camera& camera) {
+                                    const Camera& camera, const Relief& relief) {
   const cv::Rect2d box = cv::boundingRect(view.outline);
   if (box.height <= 0 || !(height_m > 0) || !camera.is_calibrated()) return std::nullopt;
   const double metres_per_px = height_m / box.height;
   const cv::Point2d origin = view.centre;
-  const auto on_plane = [&](cv::Point2d p) {
-    return cv::Point3d((p.x - origin.x) * metres_per_px, (p.y - origin.y) * metres_per_px, 0);
+  const auto at_depth = [&](cv::Point2d p, double depth_px) {
+    return cv::Point3d(p.x - origin.x, p.y - origin.y, depth_px) * metres_per_px;
   };
-  std::vector<cv::Point2d> view_points, scene_points;
-  collect_points(detection, box, view_points, scene_points);
-  if (are_on_a_line(view_points) || are_on_a_line(scene_points)) return std::nullopt;
-  std::vector<cv::Point3d> plane;
-  for (const cv::Point2d& p : view_points) plane.push_back(on_plane(p));
-  const auto fits = fit_plane(plane, undistort(camera, scene_points), camera.matrix);
+  const Points points = collect_points(detection, box);
+  if (are_on_a_line(points.view) || are_on_a_line(points.scene)) return std::nullopt;
+  std::vector<cv::Point3d> surface;
+  for (const cv::Point2d& p : points.view)
+    surface.push_back(at_depth(p, relief.known ? relief.depth_px(p) : 0));
+  const auto fits = fit_surface(surface, undistort(camera, points.scene), camera.matrix);
   if (fits.empty()) return std::nullopt;
 
-  // The view shows the object turned by its yaw; the object's own frame is that of the front.
-  const cv::Matx33d view_from_object =
-      std::isnan(view.yaw_deg) ? cv::Matx33d::eye() : turn_about_vertical(-view.yaw_deg);
+  const cv::Matx33d view_from_object = rotation_of_view(view, relief);
   ObjectPose found;
   found.pose = {fits[0].pose.rotation * view_from_object, fits[0].pose.translation};
   found.view_pose = fits[0].pose;
+  found.flat = !relief.known;
   found.size_m = {box.width * metres_per_px, height_m};
   found.error_px = std::sqrt(fits[0].squared_error);
-  if (fits.size() > 1 && is_undecided(fits[0], fits[1], plane.size()))
+  if (fits.size() > 1 && is_undecided(fits[0], fits[1], surface.size()))
     found.other = Pose{fits[1].pose.rotation * view_from_object, fits[1].pose.translation};
   for (const cv::Point2f& p : view.outline)
-    found.outline.push_back(fits[0].pose.rotation * cv::Vec3d(on_plane(p)) +
+    found.outline.push_back(fits[0].pose.rotation * cv::Vec3d(at_depth(p, 0)) +
                             fits[0].pose.translation);
   return found;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "logic/relief.hpp"
 #include "posevote/model/view.hpp"
 #include "posevote/recognize/recognizer.hpp"
 
@@ -39,8 +40,9 @@ struct Camera {
 [[nodiscard]] std::vector<cv::Point2d> undistort(const Camera& camera,
                                                  const std::vector<cv::Point2d>& points);
 
-/// Frame of an object: origin at the centre of the view's silhouette, x right, y down, z away from
-/// who looks at its front (the view of yaw 0, or of unknown yaw). Metres.
+/// Frame of an object: origin on the surface in the middle of the view's silhouette, x right, y
+/// down its upright axis, z away from who looks at its front (the view of yaw 0, or of unknown
+/// yaw). Metres.
 struct Pose {
   cv::Matx33d rotation = cv::Matx33d::eye();  ///< object -> camera's optical frame
   cv::Vec3d translation;
@@ -51,24 +53,26 @@ struct Pose {
 
 struct ObjectPose {
   Pose pose;
-  Pose view_pose;             ///< of the view's own plane: the same without the view's yaw
+  Pose view_pose;             ///< of the view's picture plane: the same without its yaw and tilt
+  bool flat = true;           ///< the view was taken for a plane: its relief is not known
   cv::Size2d size_m;          ///< of the silhouette's box in that plane
   double error_px = 0;        ///< root of the mean squared distance of the reprojected points
   std::optional<Pose> other;  ///< the mirrored pose, when the picture does not decide between them
   std::vector<cv::Vec3d> outline;  ///< the view's silhouette, metres, camera's optical frame
 };
 
-/// The pose of `detection`, an instance of `view`, whose silhouette is `height_m` high: its taught
-/// picture is taken for a plane that faced the camera, and the pose of that plane is the one whose
-/// projection fits the matched points best (infinitesimal plane-based pose estimation: Collins &
-/// Bartoli, IJCV 109(3), 2014, then least squares). A plane seen from far away looks nearly the
-/// same mirrored; with n points and noise s the two are told apart when n (e2^2 - e1^2) / s^2
-/// > 9.2, the 99 % point of chi^2 with two degrees of freedom (its two angles); s is the fit's own
-/// error, at least half a pixel. Where the surface is no plane, the points do not err
-/// independently: no more than 12 are counted. Empty when the points lie on a line, the fit fails,
-/// or the object would be behind the camera.
+/// The pose of `detection`, an instance of `view`, whose silhouette is `height_m` high and whose
+/// surface has that `relief`; without one it is taken for a plane that faced the camera. It is the
+/// pose whose projection fits the matched points best: least squares from both poses of the plane
+/// (infinitesimal plane-based pose estimation: Collins & Bartoli, IJCV 109(3), 2014). What is seen
+/// from far away looks nearly the same mirrored; with n points and noise s the two are told apart
+/// when n (e2^2 - e1^2) / s^2 > 9.2, the 99 % point of chi^2 with two degrees of freedom (its two
+/// angles); s is the fit's own error, at least half a pixel. Where the surface is not as smooth as
+/// the relief, the points do not err independently: no more than 12 are counted. Empty when the
+/// points lie on a line, the fit fails, or the object would be behind the camera.
 [[nodiscard]] std::optional<ObjectPose> find_pose(const Detection& detection, const View& view,
-                                                  double height_m, const Camera& camera);
+                                                  double height_m, const Camera& camera,
+                                                  const Relief& relief = {});
 
 /// The silhouette on the viewing rays at `distance_m` (z of the optical frame), metres: something
 /// to show when the object's height is not known.

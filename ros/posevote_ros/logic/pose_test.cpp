@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "logic/made_can.hpp"
 #include "posevote/core/error.hpp"
 
 namespace posevote::logic {
@@ -63,6 +64,10 @@ void expect_near(const Pose& a, const Pose& b, double tolerance) {
   EXPECT_LT(cv::norm(a.rotation - b.rotation), tolerance);
 }
 
+double degrees_between(const cv::Matx33d& a, const cv::Matx33d& b) {
+  return std::acos(std::min((cv::trace(a * b.t()) - 1) / 2, 1.0)) * 180 / CV_PI;
+}
+
 TEST(FindPose, FindsASlantedBoardNearby) {
   const Pose truth = turned(20, -35, {0.05, -0.02, 0.4});
   const auto found = find_pose(seen(board(), truth, camera()), board(), 0.1, camera());
@@ -97,6 +102,36 @@ TEST(FindPose, GivesTheFrameOfTheFrontWhenYawIsKnown) {
   const cv::Vec3d out_of_front = found->pose.rotation * cv::Vec3d(0, 0, -1);
   const cv::Vec3d right_of_plane = plane.rotation * cv::Vec3d(1, 0, 0);
   EXPECT_GT(out_of_front.dot(right_of_plane), 0.99);
+}
+
+/// A can is no plane: taken for one, its turn is off.
+TEST(FindPose, KnowsTheTurnOfACanByItsRelief) {
+  const MadeCan can;
+  const auto front = can.view(0, 20);
+  const Relief relief = find_relief(*front, {front, can.view(30, 20), can.view(-30, 20)});
+  ASSERT_TRUE(relief.known);
+  for (const double yaw : {-20.0, 0.0, 15.0}) {
+    const cv::Matx33d turned = MadeCan::rotation(yaw, 10);
+    Detection detection;
+    std::size_t i = 0;
+    for (const auto& mark : can.marks) {
+      if (!MadeCan::is_seen(mark, MadeCan::rotation(0, 20))) continue;
+      const Keypoint& taught = front->features.keypoints[i++];
+      if (!MadeCan::is_seen(mark, turned)) continue;
+      const cv::Vec3d p = turned * MadeCan::place(mark) * 1e-3 + cv::Vec3d(0, 0, 0.8);
+      const cv::Vec3d scene = camera().matrix * (p * (1 / p[2]));
+      detection.matches.push_back({{taught.x, taught.y}, cv::Point2d(scene[0], scene[1])});
+    }
+    const auto found = find_pose(detection, *front, 0.16, camera(), relief);
+    const auto flat = find_pose(detection, *front, 0.16, camera());
+    ASSERT_TRUE(found && flat) << yaw;
+    EXPECT_FALSE(found->flat);
+    EXPECT_TRUE(flat->flat);
+    EXPECT_LT(degrees_between(found->pose.rotation, turned), 3) << yaw;
+    if (yaw == 0) EXPECT_GT(degrees_between(flat->pose.rotation, turned), 15);
+    // Its front is a radius nearer than its middle.
+    EXPECT_NEAR(found->pose.translation[2], 0.8 - 0.06, 0.015) << yaw;
+  }
 }
 
 TEST(FindPose, UndoesDistortion) {

@@ -15,6 +15,11 @@ from posevote_msgs.msg import DatabaseInfo, DetectionArray, TeachAction, TeachGo
 from sensor_msgs.msg import CameraInfo, Image
 from visualization_msgs.msg import MarkerArray
 
+try:
+    from vision_msgs.msg import Detection2DArray, Detection3DArray
+except ImportError:  # then the node was built without them
+    Detection2DArray = None
+
 import demo
 
 NODE = "/posevote/"
@@ -144,6 +149,31 @@ class RecognitionTest(unittest.TestCase):
         finally:
             client.update_configuration({"object_heights": "", "publish_tf": False})
             listener.unregister()
+
+    @unittest.skipUnless(Detection2DArray, "there is no vision_msgs")
+    def test_vision_msgs_have_boxes_and_poses(self):
+        client = dynamic_reconfigure.client.Client("/posevote", timeout=30)
+        client.update_configuration({"object_heights": "poster=0.6"})
+        try:
+            flat = self.collect(NODE + "detections_2d", Detection2DArray)
+            solid = self.collect(NODE + "detections_3d", Detection3DArray)
+            self.infos.publish(demo.camera_info(1280, 960))
+
+            def answer():  # the first pictures may overtake the camera_info
+                picture = demo.image(SCENE)
+                self.send(picture)
+                return solid.wait_for(lambda m: m.header.stamp == picture.header.stamp)
+            self.assertTrue(demo.wait_until(lambda: answer().detections))
+            box = flat.messages[-1].detections[0].bbox
+            self.assertAlmostEqual(box.center.x, 412, delta=12)
+            self.assertAlmostEqual(box.size_x, 285, delta=20)
+            found = solid.messages[-1].detections[0]
+            self.assertEqual(found.results[0].id, 0)  # its place in the database
+            self.assertGreater(found.results[0].score, 0.9)
+            self.assertAlmostEqual(found.results[0].pose.pose.position.z, 1.7, delta=0.15)
+            self.assertAlmostEqual(found.bbox.size.y, 0.6)
+        finally:
+            client.update_configuration({"object_heights": ""})
 
     def test_parameters_have_ranges_and_refuse_what_lies_outside(self):
         client = dynamic_reconfigure.client.Client("/posevote", timeout=30)

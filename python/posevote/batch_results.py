@@ -39,15 +39,21 @@ class Results:
             os.replace(made, self.note)
 
     def cut_off(self):
-        """Removes a line that was not finished; returns (image, frame, is error) of the others."""
+        """Removes what was not finished, or is damaged since a power cut, and all after it; returns
+        (image, frame, is error) of each other line."""
+        written, end = deque(), 0
         if not self.path.exists():
-            return []
-        data = self.path.read_bytes()
-        whole = data[: data.rfind(b"\n") + 1]
-        if len(whole) < len(data):
-            os.truncate(self.path, len(whole))
-        lines = (json.loads(line) for line in whole.splitlines())
-        return deque((line["image"], line.get("frame"), "error" in line) for line in lines)
+            return written
+        with open(self.path, "rb") as file:  # it may be larger than the memory
+            for line in file:
+                try:
+                    found = json.loads(line) if line.endswith(b"\n") else {}
+                    written.append((found["image"], found.get("frame"), "error" in found))
+                except (ValueError, KeyError):
+                    break
+                end += len(line)
+        os.truncate(self.path, end)
+        return written
 
     def take_up(self, task):
         """How many of the lines that are there already belong to `task`, and whether those are all

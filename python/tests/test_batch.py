@@ -96,12 +96,15 @@ def test_lines_are_those_of_one_machine_in_the_order_given(database, pictures, t
     assert sum(len(line.get("detections", [])) for line in found) >= 1
 
 
-def test_what_was_stopped_goes_on_where_it_was(database, pictures, tmp_path):
+@pytest.mark.parametrize(
+    "damage", [lambda line: line[:40], lambda line: b"\0" * 20 + line[20:] + line], ids=["cut", "zeros"]
+)
+def test_what_was_stopped_goes_on_where_it_was(damage, database, pictures, tmp_path):
     out = tmp_path / "out.jsonl"
     (pictures / "4.jpg").unlink()
     assert run(pictures, "--db", database, "--out", out, "--workers", 2).returncode == 0
     whole = out.read_bytes().splitlines(keepends=True)
-    out.write_bytes(b"".join(whole[:5]) + whole[5][:40])
+    out.write_bytes(b"".join(whole[:5]) + damage(whole[5]))
     assert run(pictures, "--db", database, "--out", out, "--workers", 1).returncode == 0
     again = out.read_bytes().splitlines(keepends=True)
     assert again[:5] == whole[:5]  # not made again: even the times are those of before

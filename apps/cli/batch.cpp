@@ -80,7 +80,9 @@ void add_batch(CLI::App& app, CommandContext&) {
       "      stopped and run again, it goes on where it was\n"
       "  find archive -name '*.jpg' | sort | posevote batch --list - --out found.jsonl\n"
       "  posevote batch archive/ --out found.jsonl --scheduler tcp://head:8786 "
-      "--db postgresql://robot@head/objects");
+      "--db postgresql://robot@head/objects\n"
+      "On a terminal it shows the address of Dask's pages: the dashboard where Python's bokeh is\n"
+      "installed (Debian 12 has no package of it), else plain pages on workers and tasks.");
   BatchArguments& a = *arguments;
   command->add_option("INPUT", a.inputs, "Pictures, folders of pictures, video files");
   command->add_option("--list", a.list, "FILE with an INPUT a line; -: standard input")

@@ -23,8 +23,6 @@ std::string yaw_text(double yaw_deg) {
 Json view_line(const std::string& object, const ViewSummary& view) {
   Json json{{"object", object}};
   json.update(view_json(view));
-  json["version"] = view.provenance.version;
-  json["hash"] = view.hash;
   return json;
 }
 

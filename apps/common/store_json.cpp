@@ -25,7 +25,9 @@ Json view_json(const ViewSummary& view) {
           {"coverage", view.coverage},
           {"method", view.method},
           {"source", view.provenance.source},
-          {"taught_at", view.provenance.taught_at}};
+          {"taught_at", view.provenance.taught_at},
+          {"version", view.provenance.version},
+          {"hash", view.hash}};
 }
 
 }  // namespace posevote

@@ -12,7 +12,8 @@ namespace posevote {
 /// {"object", "views", "features", "first_taught_at", "last_taught_at"}.
 [[nodiscard]] Json object_json(const ObjectSummary& object);
 
-/// {"view", "yaw", "width", "height", "features", "coverage", "method", "source", "taught_at"}.
+/// {"view", "yaw", "width", "height", "features", "coverage", "method", "source", "taught_at",
+/// "version", "hash"}.
 [[nodiscard]] Json view_json(const ViewSummary& view);
 
 }  // namespace posevote

@@ -1,19 +1,13 @@
 """Objects that do not fit into one machine's memory: split over several, their results joined.
 
-Each part of the objects has a recogniser of its own, which sees every picture. The expected number
-of false alarms in a picture is the sum over the parts, so each part may have its share of it only:
-`share_of` says how. Where detections of different parts claim the same place, the one that is the
-least likely to be an accident is right: `join`.
+Each part of the objects - about as many views in each - has a recogniser of its own with the options
+of the whole, which sees every picture. The dial of false alarms is not divided: it stands for a
+least probability of each single claim, and a part of the objects makes a part of the false claims
+only, so their sum is that of the whole. Where detections of different parts claim the same place,
+the one that is the least likely to be an accident is right: `join`.
 """
 
 from posevote import _core
-
-
-def share_of(parts, preset="default"):
-    """Keywords for the Recognizer of one of so many equal parts: its share of the false alarms."""
-    known = {option["name"]: option["default"] for option in _core._recognize_options(preset)}
-    name = "verify_false_alarms_per_1000_images"
-    return {name: known[name] / parts}
 
 
 def _overlap(a, b):
@@ -26,11 +20,15 @@ def _overlap(a, b):
     return shared / (a[2] * a[3] + b[2] * b[3] - shared)
 
 
-def join(results, max_overlap=0.4):
+def join(results, max_overlap=None):
     """The detections of all parts' results for one picture, best first, as a list of Detection.
 
-    `max_overlap`: intersection over union from which two detections claim the same place.
+    `max_overlap`: intersection over union from which two detections claim the same place; default:
+    the recogniser's own.
     """
+    if max_overlap is None:
+        options = _core._recognize_options("default")
+        max_overlap = next(o["default"] for o in options if o["name"] == "max_overlap")
     found = sorted(
         (detection for result in results for detection in result),
         key=lambda detection: detection.log10_false_alarms,

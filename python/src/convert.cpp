@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <cmath>
 
 namespace posevote::python {
 namespace {
@@ -121,6 +122,10 @@ py::array points_array(const std::vector<cv::Point2f>& points) {
 
 py::object to_python(const std::string& json) {
   return py::module_::import("json").attr("loads")(py::str(json));
+}
+
+py::object number_or_none(double value) {
+  return std::isfinite(value) ? py::object(py::float_(value)) : py::object(py::none());
 }
 
 std::string keyword_of(const std::string& option) {

@@ -48,6 +48,9 @@ struct Picture {
 /// What `json.loads` makes of it.
 [[nodiscard]] py::object to_python(const std::string& json);
 
+/// None for NaN and infinities.
+[[nodiscard]] py::object number_or_none(double value);
+
 /// "match.max_ratio" as a keyword: "match_max_ratio".
 [[nodiscard]] std::string keyword_of(const std::string& option);
 
@@ -81,7 +84,9 @@ auto without_gil(Work work) {
 void bind_images(py::module_& module);
 void bind_features(py::module_& module);
 void bind_teaching(py::module_& module);
+void bind_results(py::module_& module);
 void bind_recognition(py::module_& module);
+void bind_summaries(py::module_& module);
 void bind_store(py::module_& module);
 void bind_evaluation(py::module_& module);
 

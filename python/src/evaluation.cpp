@@ -10,10 +10,6 @@ namespace {
 
 using Shared = std::shared_ptr<Evaluation>;
 
-py::object number(double value) {
-  return std::isnan(value) ? py::object(py::none()) : py::object(py::float_(value));
-}
-
 /// The options of both as pairs that `make_method` reads.
 std::vector<std::pair<std::string, std::string>> settings_from(const std::string& preset,
                                                                const py::kwargs& keywords) {
@@ -67,9 +63,9 @@ py::dict summary_dict(const Summary& s) {
   dict["false_positives"] = s.false_positives;
   dict["twins"] = s.twins;
   dict["ignored"] = s.ignored;
-  dict["recall"] = number(s.recall());
-  dict["precision"] = number(s.precision());
-  dict["median_ms"] = number(s.total.median_ms);
+  dict["recall"] = number_or_none(s.recall());
+  dict["precision"] = number_or_none(s.precision());
+  dict["median_ms"] = number_or_none(s.total.median_ms);
   return dict;
 }
 
@@ -88,13 +84,13 @@ void bind_evaluation(py::module_& module) {
                     "The name of an object that can hardly be told apart.")
       .def_readonly("ignored", &Summary::ignored, "Neither asked for nor wrong.")
       .def_property_readonly(
-          "recall", [](const Summary& s) { return number(s.recall()); },
+          "recall", [](const Summary& s) { return number_or_none(s.recall()); },
           "right / asked; None when nothing was asked.")
       .def_property_readonly(
-          "precision", [](const Summary& s) { return number(s.precision()); },
+          "precision", [](const Summary& s) { return number_or_none(s.precision()); },
           "right / (right + false positives); None without any.")
       .def_property_readonly(
-          "median_ms", [](const Summary& s) { return number(s.total.median_ms); },
+          "median_ms", [](const Summary& s) { return number_or_none(s.total.median_ms); },
           "Median time of recognition, ms; None when no picture was read.")
       .def("to_dict", &summary_dict)
       .def("__repr__", &summary_text);

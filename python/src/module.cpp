@@ -54,7 +54,9 @@ PYBIND11_MODULE(_core, module) {
   bind_images(module);
   bind_features(module);
   bind_teaching(module);
+  bind_results(module);
   bind_recognition(module);
+  bind_summaries(module);
   bind_store(module);
   bind_evaluation(module);
 }

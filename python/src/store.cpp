@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "posevote/store/address.hpp"
 #include "posevote/store/open_store.hpp"
 #include "posevote/store/transfer.hpp"
 #include "views.hpp"
@@ -87,107 +88,6 @@ AddResult teach_into(const PyStore& self, const std::string& name, const py::obj
   if (!source.is_none()) view.taught.provenance.source = source.cast<std::string>();
   return with(self,
               [&](ObjectStore& store) { return store.add_view(name, view.taught, view.record); });
-}
-
-py::object yaw_object(double yaw_deg) {
-  return std::isnan(yaw_deg) ? py::object(py::none()) : py::object(py::float_(yaw_deg));
-}
-
-void bind_summaries(py::module_& module) {
-  py::class_<ObjectSummary>(module, "ObjectSummary", "An object of a database.")
-      .def_readonly("name", &ObjectSummary::name)
-      .def_readonly("views", &ObjectSummary::views, "Number of its views.")
-      .def_readonly("features", &ObjectSummary::features, "Features of all its views.")
-      .def_readonly("first_taught_at", &ObjectSummary::first_taught_at, "UTC, ISO 8601.")
-      .def_readonly("last_taught_at", &ObjectSummary::last_taught_at, "UTC, ISO 8601.")
-      .def(
-          "to_dict",
-          [](const ObjectSummary& o) {
-            py::dict dict;
-            dict["object"] = o.name;
-            dict["views"] = o.views;
-            dict["features"] = o.features;
-            dict["first_taught_at"] = o.first_taught_at;
-            dict["last_taught_at"] = o.last_taught_at;
-            return dict;
-          },
-          "As in the lines of 'posevote objects list --json'.")
-      .def("__repr__", [](const ObjectSummary& o) {
-        return "ObjectSummary(name=" + std::string(py::repr(py::str(o.name))) +
-               ", views=" + std::to_string(o.views) + ", features=" + std::to_string(o.features) +
-               ")";
-      });
-  py::class_<ViewSummary>(module, "ViewSummary", "A view of a database, without its pictures.")
-      .def_readonly("id", &ViewSummary::id)
-      .def_readonly("hash", &ViewSummary::hash, "Content hash: equal for equal content.")
-      .def_property_readonly(
-          "yaw_deg", [](const ViewSummary& v) { return yaw_object(v.yaw_deg); },
-          "Turn about the vertical axis, degrees; None: unknown.")
-      .def_property_readonly(
-          "image_size",
-          [](const ViewSummary& v) {
-            return py::make_tuple(v.image_size.width, v.image_size.height);
-          },
-          "(width, height), px.")
-      .def_readonly("features", &ViewSummary::features, "Number of its features.")
-      .def_readonly("coverage", &ViewSummary::coverage,
-                    "Share of the picture that the object covers.")
-      .def_readonly("method", &ViewSummary::method, "How the object was found.")
-      .def_property_readonly(
-          "source", [](const ViewSummary& v) { return v.provenance.source; },
-          "File or camera that it comes from.")
-      .def_property_readonly(
-          "taught_at", [](const ViewSummary& v) { return v.provenance.taught_at; },
-          "UTC, ISO 8601.")
-      .def_property_readonly(
-          "version", [](const ViewSummary& v) { return v.provenance.version; },
-          "Version of posevote that taught it.")
-      .def(
-          "to_dict",
-          [](const ViewSummary& v) {
-            py::dict dict;
-            dict["view"] = v.id;
-            dict["yaw"] = yaw_object(v.yaw_deg);
-            dict["width"] = v.image_size.width;
-            dict["height"] = v.image_size.height;
-            dict["features"] = v.features;
-            dict["coverage"] = v.coverage;
-            dict["method"] = v.method;
-            dict["source"] = v.provenance.source;
-            dict["taught_at"] = v.provenance.taught_at;
-            dict["version"] = v.provenance.version;
-            dict["hash"] = v.hash;
-            return dict;
-          },
-          "As in the lines of 'posevote objects show --json', but for the object's name.")
-      .def("__repr__", [](const ViewSummary& v) {
-        return "ViewSummary(id='" + v.id + "', " + std::to_string(v.features) +
-               " features, source=" + std::string(py::repr(py::str(v.provenance.source))) + ")";
-      });
-  py::class_<AddResult>(module, "AddResult", "What became of a view that was added.")
-      .def_readonly("id", &AddResult::id, "Id of the view.")
-      .def_readonly("added", &AddResult::added, "False: it was there already, under this id.")
-      .def("to_dict",
-           [](const AddResult& r) {
-             return py::dict(py::arg("id") = r.id, py::arg("added") = r.added);
-           })
-      .def("__repr__", [](const AddResult& r) {
-        return "AddResult(id='" + r.id + "', added=" + (r.added ? "True" : "False") + ")";
-      });
-  py::class_<TransferResult>(module, "TransferResult", "What was copied.")
-      .def_readonly("objects", &TransferResult::objects, "Objects copied.")
-      .def_readonly("views_added", &TransferResult::views_added)
-      .def_readonly("views_known", &TransferResult::views_known, "Views that were there already.")
-      .def("to_dict",
-           [](const TransferResult& r) {
-             return py::dict(py::arg("objects") = r.objects, py::arg("views_added") = r.views_added,
-                             py::arg("views_known") = r.views_known);
-           })
-      .def("__repr__", [](const TransferResult& r) {
-        return "TransferResult(objects=" + std::to_string(r.objects) +
-               ", views_added=" + std::to_string(r.views_added) +
-               ", views_known=" + std::to_string(r.views_known) + ")";
-      });
 }
 
 void bind_reading(py::class_<PyStore, std::shared_ptr<PyStore>>& store) {
@@ -349,7 +249,7 @@ void bind_writing(py::class_<PyStore, std::shared_ptr<PyStore>>& store) {
 }  // namespace
 
 void bind_store(py::module_& module) {
-  bind_summaries(module);
+  module.def("_without_passwords", &without_passwords);
   py::class_<PyStore, std::shared_ptr<PyStore>> store(
       module, "ObjectStore",
       "A database of taught objects.\n\n"

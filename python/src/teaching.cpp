@@ -6,6 +6,7 @@
 #include "features.hpp"
 #include "posevote/image/read_image.hpp"
 #include "posevote/teach/quality.hpp"
+#include "store_json.hpp"
 #include "views.hpp"
 
 namespace posevote::python {
@@ -30,10 +31,6 @@ Picture picture_or_file(const py::object& object, const char* what) {
 
 double yaw_from(const py::object& yaw_deg) {
   return yaw_deg.is_none() ? std::nan("") : yaw_deg.cast<double>();
-}
-
-py::object yaw_object(double yaw_deg) {
-  return std::isnan(yaw_deg) ? py::object(py::none()) : py::object(py::float_(yaw_deg));
 }
 
 std::optional<cv::Rect> rect_from(const py::object& roi) {
@@ -70,21 +67,19 @@ TeachOptions teach_options(const py::kwargs& keywords) {
   return options;
 }
 
-py::dict view_dict(const PyView& self) {
+/// What a database would say of it.
+ViewSummary summary_of(const PyView& self) {
   const View& view = self.taught.view;
-  py::dict dict;
-  dict["view"] = view.id;
-  dict["yaw"] = yaw_object(view.yaw_deg);
-  dict["width"] = view.image_size.width;
-  dict["height"] = view.image_size.height;
-  dict["features"] = view.features.size();
-  dict["coverage"] = coverage(view);
-  dict["method"] = self.taught.method;
-  dict["source"] = self.taught.provenance.source;
-  dict["taught_at"] = self.taught.provenance.taught_at;
-  dict["version"] = self.taught.provenance.version;
-  dict["hash"] = view.hash;
-  return dict;
+  ViewSummary summary;
+  summary.id = view.id;
+  summary.hash = view.hash;
+  summary.yaw_deg = view.yaw_deg;
+  summary.image_size = view.image_size;
+  summary.features = static_cast<int>(view.features.size());
+  summary.coverage = coverage(view);
+  summary.method = self.taught.method;
+  summary.provenance = self.taught.provenance;
+  return summary;
 }
 
 std::string view_text(const PyView& self) {
@@ -107,7 +102,7 @@ void bind_view(py::module_& module) {
           "hash", [](const PyView& v) { return v.taught.view.hash; },
           "Content hash: equal for equal content; '' before it is stored.")
       .def_property_readonly(
-          "yaw_deg", [](const PyView& v) { return yaw_object(v.taught.view.yaw_deg); },
+          "yaw_deg", [](const PyView& v) { return number_or_none(v.taught.view.yaw_deg); },
           "Turn about the vertical axis, degrees; None: unknown.")
       .def_property_readonly(
           "image_size",
@@ -153,8 +148,9 @@ void bind_view(py::module_& module) {
       .def_property_readonly(
           "version", [](const PyView& v) { return v.taught.provenance.version; },
           "Version of posevote that taught it.")
-      .def("to_dict", &view_dict,
-           "What 'posevote objects show --json' says of it, but for the object's name.")
+      .def(
+          "to_dict", [](const PyView& v) { return to_python(to_line(view_json(summary_of(v)))); },
+          "What 'posevote objects show --json' says of it, but for the object's name.")
       .def("__repr__", &view_text);
 }
 

@@ -15,20 +15,21 @@ from conftest import DEMO
 
 distributed = pytest.importorskip("distributed")
 
-from posevote import batch  # noqa: E402
+from posevote import batch_work  # noqa: E402
+from posevote.batch_results import Results  # noqa: E402
 
 # Dask loads it into each worker, twice.
 KILLER = """
 import os, signal
-from posevote import batch
-def deadly(job, path, plain=getattr(batch, "plain", batch.picture_line)):
+from posevote import batch_work
+def deadly(job, path, plain=getattr(batch_work, "plain", batch_work.picture_line)):
     if "poison" in path and not os.path.exists({antidote!r}):
         if {once}:
             open({antidote!r}, "w").close()
         os.kill(os.getpid(), signal.SIGKILL)
     return plain(job, path)
-batch.plain = getattr(batch, "plain", batch.picture_line)
-batch.picture_line = deadly
+batch_work.plain = getattr(batch_work, "plain", batch_work.picture_line)
+batch_work.picture_line = deadly
 """
 
 
@@ -95,12 +96,15 @@ def test_lines_are_those_of_one_machine_in_the_order_given(database, pictures, t
     assert sum(len(line.get("detections", [])) for line in found) >= 1
 
 
-def test_what_was_stopped_goes_on_where_it_was(database, pictures, tmp_path):
+@pytest.mark.parametrize(
+    "damage", [lambda line: line[:40], lambda line: b"\0" * 20 + line[20:] + line], ids=["cut", "zeros"]
+)
+def test_what_was_stopped_goes_on_where_it_was(damage, database, pictures, tmp_path):
     out = tmp_path / "out.jsonl"
     (pictures / "4.jpg").unlink()
     assert run(pictures, "--db", database, "--out", out, "--workers", 2).returncode == 0
     whole = out.read_bytes().splitlines(keepends=True)
-    out.write_bytes(b"".join(whole[:5]) + whole[5][:40])
+    out.write_bytes(b"".join(whole[:5]) + damage(whole[5]))
     assert run(pictures, "--db", database, "--out", out, "--workers", 1).returncode == 0
     again = out.read_bytes().splitlines(keepends=True)
     assert again[:5] == whole[:5]  # not made again: even the times are those of before
@@ -154,22 +158,20 @@ def test_a_picture_that_kills_workers_is_set_aside(database, pictures, tmp_path)
     assert out.read_bytes() == before  # and it is not tried again
 
 
-def test_a_cluster_that_is_there_is_used(database, pictures, tmp_path):
-    """A scheduler and two workers, as they would run on other machines."""
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler and two workers, as they would run on other machines: (address, scheduler)."""
     note = tmp_path / "scheduler.json"
-    start = [sys.executable, "-m"]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     scheduler = subprocess.Popen(
-        start
-        + ["distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
-        + ["--no-dashboard", "--scheduler-file", str(note)],
+        [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1"]
+        + ["--port", "0", "--no-dashboard", "--scheduler-file", str(note)],
         **quiet,
     )
     workers = [
         subprocess.Popen(
-            start
-            + ["distributed.cli.dask_worker", "--scheduler-file", str(note), "--nthreads", "2"]
-            + ["--no-dashboard", "--local-directory", str(tmp_path)],
+            [sys.executable, "-m", "distributed.cli.dask_worker", "--scheduler-file", str(note)]
+            + ["--nthreads", "2", "--no-dashboard", "--local-directory", str(tmp_path)],
             **quiet,
         )
         for _ in range(2)
@@ -177,17 +179,45 @@ def test_a_cluster_that_is_there_is_used(database, pictures, tmp_path):
     try:
         while not note.exists():
             time.sleep(0.05)
-        address = json.loads(note.read_text())["address"]
-        out = tmp_path / "out.jsonl"
-        done = run(pictures, "--db", database, "--out", out, "--scheduler", address)
-        assert done.returncode == 1, done.stderr  # one picture is damaged
-        assert [without_times(line) for line in lines_of(out)] == list(
-            expected(pictures, database)
-        )
+        yield json.loads(note.read_text())["address"], scheduler
     finally:
         for process in (*workers, scheduler):
             process.terminate()
             process.wait()
+
+
+def test_a_cluster_that_is_there_is_used(cluster, database, pictures, tmp_path):
+    address, _ = cluster
+    out = tmp_path / "out.jsonl"
+    done = run(pictures, "--db", database, "--out", out, "--scheduler", address)
+    assert done.returncode == 1, done.stderr  # one picture is damaged
+    assert [without_times(line) for line in lines_of(out)] == list(expected(pictures, database))
+
+
+def test_a_scheduler_that_goes_is_said_and_the_work_goes_on_later(
+    cluster, database, pictures, tmp_path
+):
+    address, scheduler = cluster
+    (pictures / "4.jpg").unlink()
+    names = sorted(map(str, pictures.glob("*.jpg"))) * 20
+    listed, out = tmp_path / "pictures.txt", tmp_path / "out.jsonl"
+    listed.write_text("".join(name + "\n" for name in names))
+    arguments = ["--list", str(listed), "--db", str(database), "--out", str(out)]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "posevote.batch", *arguments, "--scheduler", address],
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    while process.poll() is None and (not out.exists() or not out.stat().st_size):
+        time.sleep(0.01)
+    scheduler.kill()
+    errors = process.communicate()[1]
+    assert process.returncode == 1
+    assert errors.splitlines()[-1].startswith("posevote: ") and "run it again" in errors
+    assert "Traceback" not in errors
+    assert len(lines_of(out)) < len(names)
+    assert run(*arguments, "--workers", 2).returncode == 0
+    assert [line["image"] for line in lines_of(out)] == names
 
 
 def test_other_pictures_or_objects_are_not_mixed(database, pictures, tmp_path):
@@ -214,9 +244,9 @@ def test_other_pictures_or_objects_are_not_mixed(database, pictures, tmp_path):
     [
         (["--db", "{folder}/nothing.db"], ["nothing.db"]),
         (["--db", "{database}", "--set", "match.max_ration=1"], ["max_ratio'?"]),
-        (["--db", "{database}", "--set", "match.max_ratio=much"], ["match_max_ratio", "much"]),
+        (["--db", "{database}", "--set", "match.max_ratio=much"], ["match.max_ratio", "much"]),
+        (["--db", "{database}", "--set", "unknown"], ["NAME=VALUE"]),
         (["--db", "{database}", "--scheduler", "nonsense"], ["nonsense"]),
-        (["--db", "postgresql://robot:secret@127.0.0.1:1/db"], ["robot:***@"]),
     ],
 )
 def test_what_is_wrong_is_said_in_one_sentence(arguments, words, database, pictures, tmp_path):
@@ -224,7 +254,17 @@ def test_what_is_wrong_is_said_in_one_sentence(arguments, words, database, pictu
     done = run(pictures, *given, "--out", tmp_path / "out.jsonl")
     assert done.returncode == 1
     assert done.stderr.startswith("posevote: ") and done.stderr.count("\n") == 1
-    assert all(word in done.stderr for word in words) and "secret" not in done.stderr
+    assert all(word in done.stderr for word in words)
+
+
+def test_no_password_is_said_or_taken_as_an_argument(pictures, tmp_path, monkeypatch):
+    address = "postgresql://robot:secret@127.0.0.1:1/db"
+    done = run(pictures, "--db", address, "--out", tmp_path / "out.jsonl")
+    assert done.returncode == 2 and "POSEVOTE_DB" in done.stderr and "secret" not in done.stderr
+    monkeypatch.setenv("POSEVOTE_DB", address)
+    done = run(pictures, "--out", tmp_path / "out.jsonl")
+    assert done.returncode == 1 and done.stderr.count("\n") == 1
+    assert "robot:***@" in done.stderr and "secret" not in done.stderr
 
 
 def test_videos_are_cut_in_parts_and_resumed_within(database, pictures, tmp_path, monkeypatch):
@@ -235,21 +275,21 @@ def test_videos_are_cut_in_parts_and_resumed_within(database, pictures, tmp_path
     for _ in range(23):
         writer.write(image)
     writer.release()
-    monkeypatch.setattr(batch, "FRAMES_PER_TASK", 10)
-    tasks = [task for task, error in batch.tasks_of([str(film)])]
+    monkeypatch.setattr(batch_work, "FRAMES_PER_TASK", 10)
+    tasks = [task for task, error in batch_work.tasks_of([str(film)])]
     assert [(task.begin, task.end) for task in tasks] == [(0, 10), (10, 20), (20, sys.maxsize)]
-    job = batch.Job(str(database), every=4)
-    lines = [line for task in tasks for line in batch.run_task(job, task)]
+    job = batch_work.Job(str(database), every=4)
+    lines = [line for task in tasks for line in batch_work.run_task(job, task)]
     assert [json.loads(line)["frame"] for line in lines] == [0, 4, 8, 12, 16, 20]
 
     out = tmp_path / "out.jsonl"
-    results = batch.Results(out, {}, restart=False)
+    results = Results(out, {}, restart=False)
     results.write(lines[:4])
     results.close()
-    results = batch.Results(out, {}, restart=False)
+    results = Results(out, {}, restart=False)
     assert [results.take_up(task) for task in tasks] == [(3, False), (1, False), (0, False)]
     results.close()
 
 
 def test_a_job_shows_no_password():
-    assert "secret" not in repr(batch.Job("postgresql://robot:secret@host/db"))
+    assert "secret" not in repr(batch_work.Job("postgresql://robot:secret@host/db"))

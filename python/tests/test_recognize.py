@@ -111,15 +111,26 @@ def test_objects_can_be_swapped(poster, scene):
     assert recognizer.models.names == ["poster"]
 
 
-def test_other_threads_run_during_recognition(poster, scene):
+LONG_CALLS = {
+    "recognize": lambda poster, scene, store: posevote.Recognizer({"it": [poster]}).recognize(scene),
+    "teach_view": lambda poster, scene, store: posevote.teach_view(scene),
+    "detect": lambda poster, scene, store: posevote.Surf().detect_and_compute(scene),
+    "add_view": lambda poster, scene, store: store.add_view("poster", poster),
+    "load": lambda poster, scene, store: store.load(pictures=True),
+    "wait": lambda poster, scene, store: store.wait_for_change(store.version, 0.01),
+}
+
+
+@pytest.mark.parametrize("name", LONG_CALLS)
+def test_other_threads_run_during_long_calls(name, poster, scene, store):
     # Without time slices a thread runs on until it lets others run of its own accord.
-    recognizer = posevote.Recognizer({"poster": [poster]})
     slice_s = sys.getswitchinterval()
+    store.add_view("other", poster)
     span, moments = [], []
 
     def work():
         span.append(time.perf_counter())
-        recognizer.recognize(scene)
+        LONG_CALLS[name](poster, scene, store)
         span.append(time.perf_counter())
 
     thread = threading.Thread(target=work)

@@ -26,26 +26,22 @@ def taught():
 def test_two_halves_answer_as_the_whole():
     objects = taught()
     names = sorted(objects)
-    share = split.share_of(2)
     halves = [
-        posevote.Recognizer({name: objects[name] for name in names[i::2]}, **share)
-        for i in range(2)
+        posevote.Recognizer({name: objects[name] for name in names[i::2]}) for i in range(2)
     ]
     whole = posevote.Recognizer(objects)
-    same = different = right = lost = 0
+    same = different = 0
     for test in DATASET["tests"]:
         image = posevote.read_image(DEMO / test["image"])
         together = [detection.object for detection in whole.recognize(image)]
         joined = [d.object for d in split.join(half.recognize(image) for half in halves)]
         same += sorted(together) == sorted(joined)
         different += sorted(together) != sorted(joined)
-        right_together = set(together) & {truth["name"] for truth in test["objects"]}
-        right += len(right_together)
-        lost += len(right_together - set(joined))
+        # What the whole finds and what is there, the halves find, too.
+        asked = {truth["name"] for truth in test["objects"]}
+        assert set(together) & asked <= set(joined), test["image"]
         print(test["image"], sorted(together), sorted(joined))
     assert same > different
-    # Each half has half of the false alarms, so it is a little more careful than the whole.
-    assert lost <= 0.1 * right
 
 
 def test_the_more_significant_claim_of_a_place_is_kept(poster, cover, scene):

@@ -1,10 +1,13 @@
-// One picture, one database: library, command and Python package say the same.
+// One picture, one database: library, command, server and Python package say the same.
 #include <cstdio>
 
 #include "posevote/image/read_image.hpp"
 #include "posevote/json/recognition_json.hpp"
 #include "posevote/store/sqlite/sqlite_store.hpp"
 #include "program.hpp"
+#ifdef POSEVOTE_WITH_SERVER
+#include "../server/server_process.hpp"
+#endif
 
 namespace posevote {
 namespace {
@@ -48,6 +51,19 @@ TEST_F(SameResult, LibraryAndCommand) {
   EXPECT_EQ(lines_of(run(arguments).out), expected_);
   EXPECT_FALSE(expected_[0]["detections"].empty());
 }
+
+#ifdef POSEVOTE_WITH_SERVER
+TEST_F(SameResult, LibraryAndServer) {
+  const ServerProcess server(folder_, {});  // folder_ is where the database lies
+  for (std::size_t i = 0; i < scenes_.size(); ++i) {
+    const auto answer = server.client().Post("/api/recognize", content(scenes_[i]), "image/jpeg");
+    ASSERT_TRUE(answer) << to_string(answer.error());
+    Json said = without_times(Json::parse(answer->body));
+    said["image"] = scenes_[i];  // a picture that is sent has no file's name
+    EXPECT_EQ(said, expected_[i]);
+  }
+}
+#endif
 
 #ifdef POSEVOTE_PYTHON_PACKAGES
 TEST_F(SameResult, LibraryAndPython) {

@@ -5,9 +5,11 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
+#include <utility>
 
+#include "posevote/core/error.hpp"
 #include "posevote/model/view.hpp"
+#include "posevote/store/blob.hpp"
 #include "posevote/store/taught_view.hpp"
 
 namespace posevote {
@@ -15,15 +17,35 @@ namespace posevote {
 /// The present time, UTC, ISO 8601 to the second.
 [[nodiscard]] std::string utc_now();
 
-/// Sets `view.picture` (8-bit BGR) and `view.mask` from their encoded forms; `name` stands for them
-/// in messages. Throws Error{unreadable_image}.
-void decode_pictures(View& view, const std::vector<std::uint8_t>& picture,
-                     const std::vector<std::uint8_t>& mask, const std::string& name);
+/// Throws Error{code, "database 'LOCATION' REASON"}.
+[[noreturn]] void throw_database_error(ErrorCode code, const std::string& location,
+                                       const std::string& reason);
 
-/// The object in small, from encoded pictures; without a mask the outline's inside is the object.
-/// Empty when the picture cannot be read.
-[[nodiscard]] Patch patch_of(const View& view, const std::vector<std::uint8_t>& picture,
-                             const std::vector<std::uint8_t>& mask);
+/// The view that `read` makes of a row. Throws Error{database_unusable} unless it is what was
+/// stored with these hashes.
+[[nodiscard]] View checked_view(const std::function<View()>& read, const std::string& identity,
+                                const std::string& signature, const std::string& location);
+/// The same of a view's picture and mask; `number` names the view.
+void check_picture(const TaughtView& view, const std::string& identity, const std::string& number,
+                   const std::string& location);
+
+/// What an impostor is known by: its picture. Throws Error{invalid_argument} without one, and as
+/// `check_features`.
+[[nodiscard]] std::string identity_hash(const Impostor& impostor);
+
+/// The object in small, encoded, from encoded pictures: kept beside the view, so that loading it
+/// need not read them. Without a mask the outline's inside is the object. Empty when the picture
+/// cannot be read.
+[[nodiscard]] Blob patch_blob(const View& view, const Blob& picture, const Blob& mask);
+
+/// Encoded picture and mask of a view, fetched when they are needed.
+using FetchPictures = std::function<std::pair<Blob, Blob>()>;
+
+/// Sets `view.patch` from what is stored - views of older databases have none, for them it is made
+/// again - and `view.picture` (8-bit BGR) and `view.mask` when they are asked for. Throws
+/// Error{unreadable_image} for those, Error{database_unusable} for a damaged patch.
+void add_pictures(View& view, BlobView stored_patch, bool pictures, const FetchPictures& fetch,
+                  const std::string& location);
 
 /// Views that a snapshot, still alive, holds. For one thread at a time.
 class ViewCache {

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 
-#include "posevote/core/error.hpp"
 #include "posevote/store/address.hpp"
+#include "posevote/store/stored_view.hpp"
 
 namespace posevote::postgres {
 namespace {
-
-[[noreturn]] void fail(ErrorCode code, const std::string& location, const std::string& reason) {
-  throw Error(code, "database '" + location + "' " + reason);
-}
 
 /// The server's words as a part of one sentence, without secrets.
 std::string words_of(const std::exception& error) {
@@ -23,20 +19,22 @@ std::string words_of(const std::exception& error) {
 [[noreturn]] void rethrow_sql(const pqxx::sql_error& error, const std::string& location) {
   const std::string state = error.sqlstate(), kind = state.substr(0, 2);
   if (dynamic_cast<const pqxx::insufficient_privilege*>(&error) || state == "25006")
-    fail(ErrorCode::io, location,
-         "cannot be read or changed like that: this user has not been given the right (" +
-             words_of(error) + ")");
+    throw_database_error(
+        ErrorCode::io, location,
+        "cannot be read or changed like that: this user has not been given the right (" +
+            words_of(error) + ")");
   if (state == "55P03" || kind == "40")
-    fail(ErrorCode::io, location, "is in use by another program; try again");
+    throw_database_error(ErrorCode::io, location, "is in use by another program; try again");
   if (dynamic_cast<const pqxx::insufficient_resources*>(&error) || kind == "53")
-    fail(ErrorCode::io, location,
-         "cannot be written: the server has no space, memory or connection "
-         "left; nothing was changed");
+    throw_database_error(ErrorCode::io, location,
+                         "cannot be written: the server has no space, memory or connection "
+                         "left; nothing was changed");
   if (kind == "57" || kind == "08")
-    fail(ErrorCode::io, location, "is no longer connected: " + words_of(error));
+    throw_database_error(ErrorCode::io, location, "is no longer connected: " + words_of(error));
   if (state == "54000" || state == "22001")
-    fail(ErrorCode::invalid_argument, location, "cannot take a picture that large");
-  fail(ErrorCode::database_unusable, location, "cannot be used: " + words_of(error));
+    throw_database_error(ErrorCode::invalid_argument, location, "cannot take a picture that large");
+  throw_database_error(ErrorCode::database_unusable, location,
+                       "cannot be used: " + words_of(error));
 }
 
 }  // namespace
@@ -65,18 +63,21 @@ void rethrow(const std::string& location) {
   } catch (const pqxx::sql_error& error) {
     rethrow_sql(error, location);
   } catch (const pqxx::in_doubt_error&) {
-    fail(
+    throw_database_error(
         ErrorCode::io, location,
         "lost its connection while a change was being finished; look whether it was made, and make "
         "it again if not");
   } catch (const pqxx::broken_connection& error) {
-    fail(ErrorCode::io, location, "cannot be reached: " + words_of(error));
+    throw_database_error(ErrorCode::io, location, "cannot be reached: " + words_of(error));
   } catch (const pqxx::failure& error) {
-    fail(ErrorCode::io, location, "does not answer as it should: " + words_of(error));
+    throw_database_error(ErrorCode::io, location,
+                         "does not answer as it should: " + words_of(error));
   } catch (const pqxx::argument_error& error) {
-    fail(ErrorCode::invalid_argument, location, "cannot be opened: " + words_of(error));
+    throw_database_error(ErrorCode::invalid_argument, location,
+                         "cannot be opened: " + words_of(error));
   } catch (const std::exception& error) {
-    fail(ErrorCode::database_unusable, location, "cannot be used: " + words_of(error));
+    throw_database_error(ErrorCode::database_unusable, location,
+                         "cannot be used: " + words_of(error));
   }
 }
 

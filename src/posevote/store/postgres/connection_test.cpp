@@ -138,6 +138,16 @@ TEST_F(PostgresConnection, DamageIsNoticed) {
               AllOf(StartsWith("database_unusable"), HasSubstr("damaged")));
 }
 
+TEST_F(PostgresConnection, APatchIsReadAndNotMadeAgain) {
+  const auto store = open();
+  store->add_view("mug", made_view(1), surf);
+  server_.run(database_, "UPDATE posevote.view SET picture = '\\x00'");
+  EXPECT_FALSE(store->load()->views()[0].view->patch.empty());
+  server_.run(database_, "UPDATE posevote.view SET patch = '\\x00'");
+  EXPECT_THAT(error_of([&] { static_cast<void>(open()->load()); }),
+              AllOf(StartsWith("database_unusable"), HasSubstr(database_)));
+}
+
 TEST_F(PostgresConnection, OpenedForReadingItIsNotChanged) {
   open()->add_view("mug", made_view(1), surf);
   PostgresOptions options;

@@ -72,7 +72,9 @@ class PostgresStore : public ObjectStore {
     });
   }
 
-  [[noreturn]] void fail(ErrorCode code, const std::string& reason) const;
+  [[noreturn]] void fail(ErrorCode code, const std::string& reason) const {
+    throw_database_error(code, location_, reason);
+  }
   Link& link() const;
   void revive() const;
   bool has_right(const std::string& right) const;
@@ -83,9 +85,7 @@ class PostgresStore : public ObjectStore {
   void require_features(const FeatureRecord& features);
   void record(const FeatureRecord& features);
 
-  View checked_view(const pqxx::row& row, const std::string& signature) const;
-  void check_picture(const TaughtView& view, const std::string& identity,
-                     const std::string& number) const;
+  View read_view(const pqxx::row& row, const std::string& signature) const;
   std::shared_ptr<const View> load_view(std::int64_t row, const LoadOptions& options) const;
   std::vector<std::shared_ptr<const View>> load_views(std::int64_t object,
                                                       const LoadOptions& options) const;

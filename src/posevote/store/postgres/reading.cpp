@@ -66,10 +66,6 @@ void PostgresStore::prepare(Access access) {
   work.commit();
 }
 
-void PostgresStore::fail(ErrorCode code, const std::string& reason) const {
-  throw Error(code, "database '" + location_ + "' " + reason);
-}
-
 bool PostgresStore::has_right(const std::string& right) const {
   if (options_.access == Access::read_only) return false;
   return reading([&] {
@@ -173,26 +169,8 @@ std::vector<ViewSummary> PostgresStore::views(const std::string& object) const {
   });
 }
 
-View PostgresStore::checked_view(const pqxx::row& row, const std::string& signature) const {
-  View view;
-  try {
-    view = view_of(row);
-  } catch (const Error& error) {
-    fail(ErrorCode::database_unusable, std::string("is damaged: ") + error.what());
-  }
-  if (content_hash(view, row["identity"].c_str(), signature) != view.hash)
-    fail(ErrorCode::database_unusable, "is damaged: view " + view.id +
-                                           " of an object does not hold what was stored; make it "
-                                           "again: posevote objects rebuild");
-  return view;
-}
-
-void PostgresStore::check_picture(const TaughtView& view, const std::string& identity,
-                                  const std::string& number) const {
-  if (identity_hash(view) != identity)
-    fail(ErrorCode::database_unusable,
-         "is damaged: the picture of view " + number +
-             " of an object is not the one that was stored; remove that view and teach it again");
+View PostgresStore::read_view(const pqxx::row& row, const std::string& signature) const {
+  return checked_view([&] { return view_of(row); }, row["identity"].c_str(), signature, location_);
 }
 
 TaughtView PostgresStore::view(const std::string& object, const std::string& id) const {
@@ -204,12 +182,12 @@ TaughtView PostgresStore::view(const std::string& object, const std::string& id)
       fail(ErrorCode::not_found, "holds no view '" + id + "' of object '" + object + "'");
     const pqxx::row row = found[0];
     TaughtView taught;
-    taught.view = checked_view(row, recorded_features()->signature);
+    taught.view = read_view(row, recorded_features()->signature);
     taught.picture = blob_of(row["picture"]);
     taught.mask = blob_of(row["mask"]);
     taught.method = row["method"].c_str();
     taught.provenance = provenance_of(row);
-    check_picture(taught, row["identity"].c_str(), id);
+    check_picture(taught, row["identity"].c_str(), id, location_);
     return taught;
   });
 }
@@ -218,14 +196,17 @@ std::shared_ptr<const View> PostgresStore::load_view(std::int64_t id,
                                                      const LoadOptions& options) const {
   const pqxx::row row = work_->exec_params1(
       "SELECT number, identity, hash, yaw_deg, width, height, centre_x, centre_y, dimension, "
-      "outline, "
-      "keypoints, descriptors, picture, mask, (SELECT signature FROM posevote.features) AS "
+      "outline, keypoints, descriptors, patch, (SELECT signature FROM posevote.features) AS "
       "signature FROM posevote.view WHERE id = $1",
       id);
-  View view = checked_view(row, row["signature"].c_str());
-  view.patch = patch_of(view, blob_of(row["picture"]), blob_of(row["mask"]));
-  if (options.pictures)
-    decode_pictures(view, blob_of(row["picture"]), blob_of(row["mask"]), location_);
+  View view = read_view(row, row["signature"].c_str());
+  const Blob patch = blob_of(row["patch"]);
+  const auto fetch = [&] {
+    const pqxx::row pictures =
+        work_->exec_params1("SELECT picture, mask FROM posevote.view WHERE id = $1", id);
+    return std::pair(blob_of(pictures[0]), blob_of(pictures[1]));
+  };
+  add_pictures(view, {patch.data(), patch.size()}, options.pictures, fetch, location_);
   return std::make_shared<const View>(std::move(view));
 }
 

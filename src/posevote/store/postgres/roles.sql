@@ -1,5 +1,6 @@
--- Who may do what with the objects in this database. Run it once as its owner or as a superuser, after
--- the schema `posevote` has been made (posevote objects list --db postgresql://OWNER@HOST/NAME):
+-- Who may do what with the objects in this database. Run it as its owner or as a superuser, after the
+-- schema `posevote` has been made (posevote objects list --db postgresql://OWNER@HOST/NAME), and again
+-- after a migration: what is new then may be read, but not yet written.
 --
 --   psql -d NAME -f roles.sql
 --   GRANT posevote_reader TO kitchen_robot;
@@ -25,7 +26,11 @@ REVOKE ALL ON ALL TABLES IN SCHEMA posevote FROM PUBLIC;
 REVOKE ALL ON ALL FUNCTIONS IN SCHEMA posevote FROM PUBLIC;
 GRANT USAGE ON SCHEMA posevote TO posevote_reader;
 GRANT SELECT ON ALL TABLES IN SCHEMA posevote TO posevote_reader;
-ALTER DEFAULT PRIVILEGES IN SCHEMA posevote GRANT SELECT ON TABLES TO posevote_reader;
+DO $$
+BEGIN
+  EXECUTE format('ALTER DEFAULT PRIVILEGES FOR ROLE %s IN SCHEMA posevote GRANT SELECT ON TABLES TO posevote_reader',
+    (SELECT nspowner::regrole FROM pg_namespace WHERE nspname = 'posevote'));
+END $$;
 
 GRANT INSERT ON posevote.object, posevote.view, posevote.impostor TO posevote_teacher;
 GRANT UPDATE (next_number) ON posevote.object TO posevote_teacher;

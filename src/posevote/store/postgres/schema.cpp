@@ -83,6 +83,10 @@ CREATE TABLE posevote.derived (
   version bigint NOT NULL,
   bytes bytea NOT NULL);
 )sql",
+    // 4: views in small; views of older databases have none, it is made when they are loaded
+    R"sql(
+ALTER TABLE posevote.view ADD COLUMN patch bytea NOT NULL DEFAULT '';
+)sql",
 };
 
 }  // namespace

@@ -32,6 +32,8 @@ class TestServer {
     return "postgresql://" + login + "@127.0.0.1:" + port_ + "/" + database;
   }
 
+  [[nodiscard]] std::string socket_path() const { return folder_ + "/.s.PGSQL." + port_; }
+
   /// Runs `sql` as superuser, each statement for itself.
   pqxx::result run(const std::string& database, const std::string& sql) const {
     pqxx::connection connection(address(database));

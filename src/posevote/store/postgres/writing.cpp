@@ -1,5 +1,4 @@
 #include "posevote/core/error.hpp"
-#include "posevote/store/content_hash.hpp"
 #include "posevote/store/object_name.hpp"
 #include "posevote/store/postgres/postgres_store_impl.hpp"
 #include "posevote/store/postgres/rows.hpp"
@@ -81,24 +80,22 @@ std::string PostgresStore::insert_view(std::int64_t object, const TaughtView& ta
   const View& view = taught.view;
   const auto number = work_->exec_params1(
       "UPDATE posevote.object SET next_number = next_number + 1 WHERE id = $1 RETURNING "
-      "next_number "
-      "- 1",
+      "next_number - 1",
       object);
   std::string yaw;
   work_->exec_params0(
       "INSERT INTO posevote.view (object, number, identity, hash, yaw_deg, width, height, "
-      "centre_x, "
-      "centre_y, coverage, features, dimension, method, source, taught_at, version, outline, "
-      "keypoints, descriptors, mask, picture) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, "
-      "$11, "
-      "$12, $13, $14, $15, $16, $17, $18, $19, $20, $21)",
+      "centre_x, centre_y, coverage, features, dimension, method, source, taught_at, version, "
+      "outline, keypoints, descriptors, mask, picture, patch) VALUES ($1, $2, $3, $4, $5, $6, $7, "
+      "$8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18, $19, $20, $21, $22)",
       object, number[0].c_str(), identity, content_hash(view, identity, signature),
       yaw_or_null(view.yaw_deg, yaw), view.image_size.width, view.image_size.height,
       number_text(view.centre.x), number_text(view.centre.y), number_text(coverage(view)),
       view.features.size(), view.features.descriptors.cols, taught.method, taught.provenance.source,
       time_of(taught.provenance), taught.provenance.version, bytes(encode_points(view.outline)),
       bytes(encode_keypoints(view.features)), bytes(encode_descriptors(view.features)),
-      bytes(taught.mask), bytes(taught.picture));
+      bytes(taught.mask), bytes(taught.picture),
+      bytes(patch_blob(view, taught.picture, taught.mask)));
   return number[0].c_str();
 }
 
@@ -133,12 +130,7 @@ void PostgresStore::rename_object(const std::string& from, const std::string& to
 }
 
 AddResult PostgresStore::add_impostor(const Impostor& impostor, const FeatureRecord& features) {
-  check_features(impostor.features);
-  if (impostor.picture.empty())
-    throw Error(ErrorCode::invalid_argument, "an impostor cannot be stored without its picture");
-  ContentHash hash;
-  hash.add(impostor.picture);
-  const std::string identity = hash.hex();
+  const std::string identity = identity_hash(impostor);
   AddResult result;
   transact([&] {
     require_features(features);
@@ -206,7 +198,7 @@ void PostgresStore::rebuild_view(std::int64_t id, const FeatureRecord& features,
   taught.mask = blob_of(row["mask"]);
   view.yaw_deg = yaw_of(row["yaw_deg"]);
   const std::string identity = row["identity"].c_str();
-  check_picture(taught, identity, row["number"].c_str());
+  check_picture(taught, identity, row["number"].c_str(), location_);
   view.image_size = {row["width"].as<int>(), row["height"].as<int>()};
   const Blob outline = blob_of(row["outline"]);
   view.outline = decode_points({outline.data(), outline.size()});
@@ -216,10 +208,11 @@ void PostgresStore::rebuild_view(std::int64_t id, const FeatureRecord& features,
   check_features(view.features);
   work_->exec_params0(
       "UPDATE posevote.view SET hash = $2, features = $3, dimension = $4, keypoints = $5, "
-      "descriptors = $6 WHERE id = $1",
+      "descriptors = $6, patch = $7 WHERE id = $1",
       id, content_hash(view, identity, features.signature), view.features.size(),
       view.features.descriptors.cols, bytes(encode_keypoints(view.features)),
-      bytes(encode_descriptors(view.features)));
+      bytes(encode_descriptors(view.features)),
+      bytes(patch_blob(view, taught.picture, taught.mask)));
 }
 
 void PostgresStore::rebuild_impostor(std::int64_t id, const FeatureMaker& maker) {
@@ -229,8 +222,7 @@ void PostgresStore::rebuild_impostor(std::int64_t id, const FeatureMaker& maker)
   check_features(features);
   work_->exec_params0(
       "UPDATE posevote.impostor SET features = $2, dimension = $3, keypoints = $4, descriptors = "
-      "$5 "
-      "WHERE id = $1",
+      "$5 WHERE id = $1",
       id, features.size(), features.descriptors.cols, bytes(encode_keypoints(features)),
       bytes(encode_descriptors(features)));
 }

@@ -6,17 +6,13 @@
 
 #include <filesystem>
 
-#include "posevote/core/error.hpp"
 #include "posevote/store/sqlite/schema.hpp"
+#include "posevote/store/stored_view.hpp"
 
 namespace posevote::sqlite {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(ErrorCode code, const std::string& path, const std::string& reason) {
-  throw Error(code, "database '" + path + "' " + reason);
-}
 
 bool holds_data(const std::string& path) {
   std::error_code error;
@@ -27,17 +23,19 @@ bool holds_data(const std::string& path) {
 void check_place(const std::string& path, const SqliteOptions& options) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::directory) fail(ErrorCode::io, path, "is a folder");
+  if (status.type() == fs::file_type::directory)
+    throw_database_error(ErrorCode::io, path, "is a folder");
   if (fs::exists(status) && status.type() != fs::file_type::regular)
-    fail(ErrorCode::io, path, "is not a regular file");
+    throw_database_error(ErrorCode::io, path, "is not a regular file");
   if (status.type() == fs::file_type::none)
-    fail(ErrorCode::io, path, "cannot be opened: " + error.message());
+    throw_database_error(ErrorCode::io, path, "cannot be opened: " + error.message());
   if (options.access != Access::create && !holds_data(path))
-    fail(ErrorCode::not_found, path,
-         "does not exist; teach an object first: posevote teach --help");
+    throw_database_error(ErrorCode::not_found, path,
+                         "does not exist; teach an object first: posevote teach --help");
   const fs::path folder = fs::absolute(path).parent_path();
   if (!fs::exists(status) && !fs::is_directory(folder, error))
-    fail(ErrorCode::io, path, "cannot be made: there is no folder '" + folder.string() + "'");
+    throw_database_error(ErrorCode::io, path,
+                         "cannot be made: there is no folder '" + folder.string() + "'");
 }
 
 /// A file in a folder that may not be written, made with write-ahead logging, opens only as
@@ -87,23 +85,27 @@ void check_integrity(SQLite::Database& database, const std::string& path) {
   std::error_code error;
   const auto bytes = static_cast<std::int64_t>(fs::file_size(path, error));
   if (bytes < pages * page_bytes && !holds_data(path + "-wal"))  // newer pages may be in the log
-    fail(ErrorCode::database_unusable, path, "is damaged (cut off); restore a copy of it");
+    throw_database_error(ErrorCode::database_unusable, path,
+                         "is damaged (cut off); restore a copy of it");
   const std::string verdict = database.execAndGet("PRAGMA quick_check(1)").getString();
   if (verdict != "ok")
-    fail(ErrorCode::database_unusable, path,
-         "is damaged (" + verdict.substr(0, verdict.find('\n')) + "); restore a copy of it");
+    throw_database_error(
+        ErrorCode::database_unusable, path,
+        "is damaged (" + verdict.substr(0, verdict.find('\n')) + "); restore a copy of it");
 }
 
 /// Everything that can be said against an existing file, before anything is written to it.
 void check_content(SQLite::Database& database, const std::string& path,
                    const SqliteOptions& options) {
   if (database.execAndGet("PRAGMA application_id").getInt() != application_id)
-    fail(ErrorCode::database_unusable, path, "is a SQLite database, but not one of posevote");
+    throw_database_error(ErrorCode::database_unusable, path,
+                         "is a SQLite database, but not one of posevote");
   const int version = database.execAndGet("PRAGMA user_version").getInt();
   if (version > newest_schema)
-    fail(ErrorCode::database_unusable, path,
-         "was made by a newer version of posevote (schema " + std::to_string(version) +
-             ", this one knows " + std::to_string(newest_schema) + "); update posevote");
+    throw_database_error(ErrorCode::database_unusable, path,
+                         "was made by a newer version of posevote (schema " +
+                             std::to_string(version) + ", this one knows " +
+                             std::to_string(newest_schema) + "); update posevote");
   if (options.check_integrity) check_integrity(database, path);
 }
 
@@ -128,29 +130,32 @@ void write_log_at_close(SQLite::Database& database, bool on) {
 void rethrow(const SQLite::Exception& error, const std::string& path) {
   switch (error.getErrorCode()) {
     case SQLITE_NOTADB:
-      fail(ErrorCode::database_unusable, path, "is not a database");
+      throw_database_error(ErrorCode::database_unusable, path, "is not a database");
     case SQLITE_CORRUPT:
     case SQLITE_FORMAT:
-      fail(ErrorCode::database_unusable, path, "is damaged; restore a copy of it");
+      throw_database_error(ErrorCode::database_unusable, path, "is damaged; restore a copy of it");
     case SQLITE_FULL:
-      fail(ErrorCode::io, path, "cannot be written: the disk is full; nothing was changed");
+      throw_database_error(ErrorCode::io, path,
+                           "cannot be written: the disk is full; nothing was changed");
     case SQLITE_IOERR:
-      fail(ErrorCode::io, path,
-           "cannot be read or written (is the disk full or faulty?); nothing was changed");
+      throw_database_error(
+          ErrorCode::io, path,
+          "cannot be read or written (is the disk full or faulty?); nothing was changed");
     case SQLITE_READONLY:
-      fail(ErrorCode::io, path, "cannot be written: it is read-only");
+      throw_database_error(ErrorCode::io, path, "cannot be written: it is read-only");
     case SQLITE_PERM:
     case SQLITE_CANTOPEN:
-      fail(ErrorCode::io, path, "cannot be opened; may its folder be written?");
+      throw_database_error(ErrorCode::io, path, "cannot be opened; may its folder be written?");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      fail(ErrorCode::io, path, "is in use by another program; try again");
+      throw_database_error(ErrorCode::io, path, "is in use by another program; try again");
     case SQLITE_NOMEM:
       throw std::bad_alloc();
     case SQLITE_TOOBIG:
-      fail(ErrorCode::invalid_argument, path, "cannot take a picture that large");
+      throw_database_error(ErrorCode::invalid_argument, path, "cannot take a picture that large");
     default:
-      fail(ErrorCode::database_unusable, path, std::string("cannot be used: ") + error.what());
+      throw_database_error(ErrorCode::database_unusable, path,
+                           std::string("cannot be used: ") + error.what());
   }
 }
 
@@ -169,8 +174,9 @@ SQLite::Database connect(const std::string& path, const SqliteOptions& options) 
       migrate(database);
       set_journal(database, options.write_ahead);
     } else if (database.execAndGet("PRAGMA user_version").getInt() < newest_schema) {
-      fail(ErrorCode::database_unusable, path,
-           "is of an older version of posevote; open it once with permission to write");
+      throw_database_error(
+          ErrorCode::database_unusable, path,
+          "is of an older version of posevote; open it once with permission to write");
     }
     return database;
   });

@@ -19,10 +19,6 @@ bool SqliteStore::read_only() const {
   return sqlite3_db_readonly(database_.getHandle(), "main") != 0;
 }
 
-void SqliteStore::fail(ErrorCode code, const std::string& reason) const {
-  throw Error(code, "database '" + path_ + "' " + reason);
-}
-
 std::string SqliteStore::meta(const std::string& key) const {
   Statement select(database_, "SELECT value FROM meta WHERE key = ?");
   select.bind(1, key);
@@ -91,27 +87,9 @@ std::vector<ViewSummary> SqliteStore::views(const std::string& object) const {
   });
 }
 
-View SqliteStore::checked_view(Statement& row) const {
-  View view;
-  try {
-    view = view_of(row);
-  } catch (const Error& error) {
-    fail(ErrorCode::database_unusable, std::string("is damaged: ") + error.what());
-  }
-  if (content_hash(view, row.getColumn("identity").getString(), meta("signature")) != view.hash)
-    fail(
-        ErrorCode::database_unusable,
-        "is damaged: view " + view.id +
-            " of an object does not hold what was stored; make it again: posevote objects rebuild");
-  return view;
-}
-
-void SqliteStore::check_picture(const TaughtView& view, const std::string& identity,
-                                const std::string& number) const {
-  if (identity_hash(view) != identity)
-    fail(ErrorCode::database_unusable,
-         "is damaged: the picture of view " + number +
-             " of an object is not the one that was stored; remove that view and teach it again");
+View SqliteStore::read_view(Statement& row) const {
+  return checked_view([&] { return view_of(row); }, row.getColumn("identity").getString(),
+                      meta("signature"), path_);
 }
 
 TaughtView SqliteStore::view(const std::string& object, const std::string& id) const {
@@ -122,20 +100,14 @@ TaughtView SqliteStore::view(const std::string& object, const std::string& id) c
     if (!row.executeStep())
       fail(ErrorCode::not_found, "holds no view '" + id + "' of object '" + object + "'");
     TaughtView taught;
-    taught.view = checked_view(row);
+    taught.view = read_view(row);
     taught.picture = copy_of(row.getColumn("picture"));
     taught.mask = copy_of(row.getColumn("mask"));
     taught.method = row.getColumn("method").getString();
     taught.provenance = provenance_of(row);
-    check_picture(taught, row.getColumn("identity").getString(), id);
+    check_picture(taught, row.getColumn("identity").getString(), id, path_);
     return taught;
   });
-}
-
-Patch SqliteStore::load_patch(std::int64_t view) const {
-  Statement row(database_, "SELECT bytes FROM patch WHERE view = ?");
-  row.bind(1, view);
-  return row.executeStep() ? decode_patch(blob_of(row.getColumn(0))) : Patch();
 }
 
 std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id,
@@ -143,12 +115,14 @@ std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id,
   Statement row(database_, "SELECT * FROM view WHERE id = ?");
   row.bind(1, id);
   row.executeStep();
-  View view = checked_view(row);
-  view.patch = load_patch(id);
-  if (view.patch.empty())
-    view.patch = patch_of(view, copy_of(row.getColumn("picture")), copy_of(row.getColumn("mask")));
-  if (options.pictures)
-    decode_pictures(view, copy_of(row.getColumn("picture")), copy_of(row.getColumn("mask")), path_);
+  View view = read_view(row);
+  Statement patch(database_, "SELECT bytes FROM patch WHERE view = ?");
+  patch.bind(1, id);
+  const BlobView stored = patch.executeStep() ? blob_of(patch.getColumn(0)) : BlobView();
+  const auto fetch = [&] {
+    return std::pair(copy_of(row.getColumn("picture")), copy_of(row.getColumn("mask")));
+  };
+  add_pictures(view, stored, options.pictures, fetch, path_);
   return std::make_shared<const View>(std::move(view));
 }
 

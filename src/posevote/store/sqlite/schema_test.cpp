@@ -66,7 +66,8 @@ TEST(Schema, ObjectsOfTheFirstSchemaAreStillThere) {
     old.exec("INSERT OR REPLACE INTO main.meta SELECT * FROM today.meta");
   }
   const auto store = open_sqlite_store(path);
-  EXPECT_EQ(store->load()->views().size(), 1U);
+  ASSERT_EQ(store->load()->views().size(), 1U);
+  EXPECT_FALSE(store->load()->views()[0].view->patch.empty());  // made, as none was kept then
   EXPECT_EQ(store->add_view("mug", made_view(2), surf).id, "2");
   store->add_impostor({"", made_features(3), {1}, {}}, surf);
   EXPECT_EQ(store->impostors().size(), 1U);

@@ -57,7 +57,9 @@ class SqliteStore : public ObjectStore {
     });
   }
 
-  [[noreturn]] void fail(ErrorCode code, const std::string& reason) const;
+  [[noreturn]] void fail(ErrorCode code, const std::string& reason) const {
+    throw_database_error(code, path_, reason);
+  }
   std::string meta(const std::string& key) const;
   std::int64_t object_id(const std::string& name) const;
 
@@ -65,10 +67,8 @@ class SqliteStore : public ObjectStore {
   void require_features(const FeatureRecord& features);
   void record(const FeatureRecord& features);
 
-  View checked_view(SQLite::Statement& row) const;
-  void check_picture(const TaughtView& view, const std::string& identity,
-                     const std::string& number) const;
-  Patch load_patch(std::int64_t view) const;
+  View read_view(SQLite::Statement& row) const;
+  void keep_patch(std::int64_t view, const Blob& patch);
   std::shared_ptr<const View> load_view(std::int64_t row, const LoadOptions& options) const;
   std::vector<std::shared_ptr<const View>> load_views(std::int64_t object,
                                                       const LoadOptions& options) const;

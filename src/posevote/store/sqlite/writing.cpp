@@ -2,7 +2,6 @@
 #include <SQLiteCpp/Statement.h>
 
 #include "posevote/core/error.hpp"
-#include "posevote/store/content_hash.hpp"
 #include "posevote/store/object_name.hpp"
 #include "posevote/store/sqlite/rows.hpp"
 #include "posevote/store/sqlite/sqlite_store_impl.hpp"
@@ -94,11 +93,15 @@ std::string SqliteStore::insert_view(std::int64_t object, const TaughtView& view
   bind_blob(insert, ":mask", view.mask);
   bind_blob(insert, ":picture", view.picture);
   insert.exec();
-  Statement patch(database_,
-                  "INSERT INTO patch (view, bytes) VALUES (last_insert_rowid(), :bytes)");
-  bind_blob(patch, ":bytes", encode_patch(patch_of(view.view, view.picture, view.mask)));
-  patch.exec();
+  keep_patch(database_.getLastInsertRowid(), patch_blob(view.view, view.picture, view.mask));
   return std::to_string(number);
+}
+
+void SqliteStore::keep_patch(std::int64_t view, const Blob& patch) {
+  Statement insert(database_, "INSERT OR REPLACE INTO patch (view, bytes) VALUES (:view, :bytes)");
+  insert.bind(":view", view);
+  bind_blob(insert, ":bytes", patch);
+  insert.exec();
 }
 
 void SqliteStore::remove_object(const std::string& name) {
@@ -141,12 +144,7 @@ void SqliteStore::rename_object(const std::string& from, const std::string& to) 
 }
 
 AddResult SqliteStore::add_impostor(const Impostor& impostor, const FeatureRecord& features) {
-  check_features(impostor.features);
-  if (impostor.picture.empty())
-    throw Error(ErrorCode::invalid_argument, "an impostor cannot be stored without its picture");
-  ContentHash hash;
-  hash.add(impostor.picture);
-  const std::string identity = hash.hex();
+  const std::string identity = identity_hash(impostor);
   AddResult result;
   transact([&] {
     require_features(features);
@@ -224,7 +222,7 @@ void SqliteStore::rebuild_view(std::int64_t id, const FeatureRecord& features,
   taught.mask = copy_of(row.getColumn("mask"));
   view.yaw_deg = yaw_of(row.getColumn("yaw_deg"));
   const std::string identity = row.getColumn("identity").getString();
-  check_picture(taught, identity, row.getColumn("number").getString());
+  check_picture(taught, identity, row.getColumn("number").getString(), path_);
   view.image_size = {row.getColumn("width").getInt(), row.getColumn("height").getInt()};
   view.outline = decode_points(blob_of(row.getColumn("outline")));
   view.centre = {static_cast<float>(row.getColumn("centre_x").getDouble()),
@@ -239,6 +237,7 @@ void SqliteStore::rebuild_view(std::int64_t id, const FeatureRecord& features,
   bind_features(update, view.features);
   row.reset();
   update.exec();
+  keep_patch(id, patch_blob(view, taught.picture, taught.mask));
 }
 
 void SqliteStore::rebuild_impostor(std::int64_t id, const FeatureMaker& maker) {

@@ -123,6 +123,8 @@ export interface Impostor {
 
 export interface TeachSession {
   session: string;
+  object: string | null; // that gets further views
+  known_yaws: number[]; // of the views that it has already
   seconds: number;
   background: boolean;
   views: ViewSummary[];

@@ -4,7 +4,8 @@
 // client's camera would, and watches with N clients, every second one frames, the others events.
 // Prints one JSON object: memory at the beginning and after each twelfth of the time, frames and
 // results a second, the time from posting a frame until clients have it and its result
-// (percentiles, ms), frames that were left out.
+// (percentiles, and the median of each twelfth: it would grow with a queue; ms), frames that were
+// left out.
 #include <fcntl.h>
 #include <httplib.h>
 #include <signal.h>
@@ -115,6 +116,11 @@ int teach(const Served& server, int wanted) {
   return taught;
 }
 
+struct Delay {
+  Clock::time_point when;
+  double ms;
+};
+
 /// When frames were posted, and how long they took to arrive.
 class Times {
  public:
@@ -122,12 +128,12 @@ class Times {
     const std::lock_guard lock(mutex_);
     posted_[frame] = when;
   }
-  void arrived(std::int64_t frame, std::vector<double>& delays_ms) {
+  void arrived(std::int64_t frame, std::vector<Delay>& delays) {
     const auto now = Clock::now();
     const std::lock_guard lock(mutex_);
     const auto at = posted_.find(frame);
     if (at != posted_.end())
-      delays_ms.push_back(std::chrono::duration<double, std::milli>(now - at->second).count());
+      delays.push_back({now, std::chrono::duration<double, std::milli>(now - at->second).count()});
   }
 
  private:
@@ -161,7 +167,7 @@ void post_frames(const Served& server, const Options& options, Times& times,
 
 /// Watches a stream; `mark` stands before each frame's number.
 void watch(const Served& server, const std::string& path, const std::string& mark, Times& times,
-           std::vector<double>& delays_ms, const std::atomic<bool>& stop) {
+           std::vector<Delay>& delays, const std::atomic<bool>& stop) {
   auto client = server.client();
   std::string text;
   client.Get(path, [&](const char* data, std::size_t size) {
@@ -169,7 +175,7 @@ void watch(const Served& server, const std::string& path, const std::string& mar
     std::size_t at = 0, done = 0;
     while ((at = text.find(mark, done)) != std::string::npos &&
            text.size() > at + mark.size() + 20) {
-      times.arrived(std::stoll(text.substr(at + mark.size(), 20)), delays_ms);
+      times.arrived(std::stoll(text.substr(at + mark.size(), 20)), delays);
       done = at + mark.size();
     }
     text.erase(0, std::max(done, text.size() > 100 ? text.size() - 100 : 0));
@@ -177,20 +183,31 @@ void watch(const Served& server, const std::string& path, const std::string& mar
   });
 }
 
-Json percentiles(std::vector<double> values) {
-  if (values.empty()) return nullptr;
-  std::ranges::sort(values);
-  const auto at = [&](double share) {
-    return std::round(10 * values[static_cast<std::size_t>(share * double(values.size() - 1))]) /
-           10;
-  };
-  return {{"p50", at(0.5)}, {"p95", at(0.95)}, {"max", values.back()}};
-}
+constexpr int kSteps = 12;
 
-std::vector<double> join(const std::vector<std::vector<double>>& lists) {
+/// Of all clients together.
+Json summarize(const std::vector<std::vector<Delay>>& of_clients, Clock::time_point begin,
+               double seconds) {
   std::vector<double> all;
-  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
-  return all;
+  std::vector<std::vector<double>> steps(kSteps);
+  for (const auto& delays : of_clients)
+    for (const Delay& delay : delays) {
+      const double at = std::chrono::duration<double>(delay.when - begin).count() / seconds;
+      all.push_back(delay.ms);
+      steps[static_cast<std::size_t>(std::clamp(at, 0.0, 0.999) * kSteps)].push_back(delay.ms);
+    }
+  const auto percentile = [](std::vector<double>& values, double share) {
+    if (values.empty()) return Json();
+    std::ranges::sort(values);
+    const double value = values[static_cast<std::size_t>(share * double(values.size() - 1))];
+    return Json(std::round(10 * value) / 10);
+  };
+  Json medians = Json::array();
+  for (auto& step : steps) medians.push_back(percentile(step, 0.5));
+  return {{"p50", percentile(all, 0.5)},
+          {"p95", percentile(all, 0.95)},
+          {"max", percentile(all, 1)},
+          {"p50_of_each_twelfth", std::move(medians)}};
 }
 
 Json run(const Options& options) {
@@ -203,7 +220,7 @@ Json run(const Options& options) {
     Times times;
     std::atomic<bool> stop = false;
     const auto count = static_cast<std::size_t>(options.clients);
-    std::vector<std::vector<double>> frames(count), results(count);
+    std::vector<std::vector<Delay>> frames(count), results(count);
     std::vector<std::thread> threads;
     threads.emplace_back([&] { post_frames(server, options, times, stop); });
     for (std::size_t i = 0; i < count; ++i)
@@ -215,7 +232,6 @@ Json run(const Options& options) {
       });
     Json memory = Json::array();
     const auto begin = Clock::now();
-    constexpr int kSteps = 12;
     for (int i = 0; i <= kSteps; ++i) {
       const double due = i * options.seconds / kSteps;
       std::this_thread::sleep_for(std::chrono::duration<double>(due - seconds_since(begin)));
@@ -230,8 +246,8 @@ Json run(const Options& options) {
     report["frames_missed_by_clients"] = server.metric("posevote_stream_frames_missed_total");
     stop = true;
     for (std::thread& thread : threads) thread.join();
-    report["frame_delay_ms"] = percentiles(join(frames));
-    report["result_delay_ms"] = percentiles(join(results));
+    report["frame_delay_ms"] = summarize(frames, begin, options.seconds);
+    report["result_delay_ms"] = summarize(results, begin, options.seconds);
   }
   fs::remove_all(folder);
   return report;

@@ -54,11 +54,16 @@ Json impostor_json(const ImpostorSummary& impostor) {
           {"taught_at", impostor.provenance.taught_at}};
 }
 
-Json next_yaw_json(const std::vector<ViewSummary>& views) {
+Json next_yaw_json(const std::vector<double>& yaws_deg) {
+  return yaws_deg.empty() ? Json()
+                          : number_or_null(next_yaw(yaws_deg, QualityOptions().max_gap_deg));
+}
+
+std::vector<double> yaws_of(const std::vector<ViewSummary>& views) {
   std::vector<double> yaws;
   for (const ViewSummary& view : views)
     if (std::isfinite(view.yaw_deg)) yaws.push_back(view.yaw_deg);
-  return yaws.empty() ? Json() : number_or_null(next_yaw(yaws, QualityOptions().max_gap_deg));
+  return yaws;
 }
 
 }  // namespace posevote::server

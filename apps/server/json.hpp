@@ -23,6 +23,9 @@ namespace posevote::server {
 [[nodiscard]] Json impostor_json(const ImpostorSummary& impostor);
 
 /// Where the next picture of these views helps most; null: no gap, or no yaw is known.
-[[nodiscard]] Json next_yaw_json(const std::vector<ViewSummary>& views);
+[[nodiscard]] Json next_yaw_json(const std::vector<double>& yaws_deg);
+
+/// The yaws of those views of which they are known.
+[[nodiscard]] std::vector<double> yaws_of(const std::vector<ViewSummary>& views);
 
 }  // namespace posevote::server

@@ -34,6 +34,12 @@ class AccessTest : public ServerTest {
     return answer;
   }
 
+  /// Is this in the answer? The time for a request may also pass because the machine is busy, so it
+  /// is sent again.
+  bool answers(const std::string& request, const std::string& what) {
+    return eventually([&] { return raw(request).find(what) != std::string::npos; });
+  }
+
   int status(const std::string& path, const httplib::Headers& headers) {
     const auto result = client().Get(path, headers);
     return result ? result->status : 0;
@@ -114,18 +120,15 @@ TEST_F(AccessTest, NoFileOfTheMachineIsServed) {
 
 TEST_F(AccessTest, RequestsThatAreNoneGetAnAnswerOrAnEnd) {
   start({"--set", "limits.request_s=1"});
-  EXPECT_NE(raw("nonsense\r\n\r\n").find("400"), std::string::npos);
+  EXPECT_TRUE(answers("nonsense\r\n\r\n", "400"));
   EXPECT_EQ(raw("GET / HTTP/1.1\r\n").find("200"), std::string::npos) << "the head never ends";
   raw("GET / HTTP/1.1\r\nX: " + std::string(100'000, 'x'));
   raw(std::string(100'000, 'x'));
-  EXPECT_NE(raw("POST /api/recognize HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100\r\n\r\nabc")
-                .find("408"),
-            std::string::npos);
-  EXPECT_NE(raw("POST /api/recognize HTTP/1.1\r\nHost: localhost\r\nContent-Length: "
-                "99999999999999\r\nConnection: close\r\n\r\nabc")
-                .find("413"),
-            std::string::npos);
-  EXPECT_EQ(get("/api/health")["status"], "ok");
+  const std::string post = "POST /api/recognize HTTP/1.1\r\nHost: localhost\r\nContent-Length: ";
+  EXPECT_TRUE(answers(post + "100\r\n\r\nabc", "408"));
+  EXPECT_TRUE(answers(post + "99999999999999\r\nConnection: close\r\n\r\nabc", "413"));
+  EXPECT_TRUE(answers("GET /api/health HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n",
+                      "\"ok\""));
 }
 
 TEST_F(AccessTest, ABodyThatGrowsWithoutALengthIsCutOff) {

@@ -286,6 +286,7 @@ void Contract::teach_operations() {
   const std::string id = made["session"], one = sessions + "/" + id;
   ids_["session"] = id;
   expect("GET " + sessions, 200, sessions);
+  expect("POST " + sessions, 404, sessions + "?object=nobody");
   expect("GET " + of, 200, one);
   expect("GET " + of + "/background", 404, one + "/background");
   expect("PUT " + of + "/background", 200, one + "/background",

@@ -128,6 +128,26 @@ TEST_F(Life, ASourceThatIsNotThereYetIsWaitedFor) {
   EXPECT_TRUE(eventually([&] { return get("/api/live")["state"] == "running"; }));
 }
 
+TEST_F(Life, AStreamOverHttpIsASource) {
+  start({"--camera", make_camera("camera", {demo("test/breakfast.jpg")}), "--fps", "20"});
+  const std::string address =
+      "http://127.0.0.1:" + std::to_string(server_->port()) + "/api/stream.mjpg";
+  fs::create_directory(folder_ + "/second");
+  const ServerProcess second(folder_ + "/second", {"--camera", address});
+  const auto state_is = [&](const std::string& state) {
+    return eventually(
+        [&] { return Json::parse(second.client().Get("/api/live")->body)["state"] == state; });
+  };
+  EXPECT_TRUE(state_is("running"));
+  const int port = server_->port();
+  server_->send_signal(SIGKILL);
+  server_->wait();
+  EXPECT_TRUE(state_is("lost"));
+  start({"--camera", folder_ + "/camera", "--fps", "20", "--listen",
+         "127.0.0.1:" + std::to_string(port)});
+  EXPECT_TRUE(state_is("running")) << "it comes back by itself";
+}
+
 TEST_F(Life, MetricsCountWhatHappened) {
   start({"--camera", make_camera("camera", {demo("test/breakfast.jpg")})});
   teach_poster();

@@ -67,7 +67,8 @@ ServerProcess::~ServerProcess() {
 
 httplib::Client ServerProcess::client() const {
   httplib::Client client("127.0.0.1", port_);
-  client.set_read_timeout(60);
+  client.set_read_timeout(kPatience);
+  client.set_connection_timeout(kPatience);
   client.set_keep_alive(true);
   return client;
 }

@@ -17,9 +17,12 @@ namespace posevote {
 
 using Json = nlohmann::ordered_json;
 
+/// How long is waited for what must come: a machine that is busy with other things takes its time.
+inline constexpr std::chrono::minutes kPatience{5};
+
 /// Waits for `condition`, which is asked again and again; false when it does not come in time.
-inline bool eventually(const std::function<bool()>& condition, double seconds = 60) {
-  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+inline bool eventually(const std::function<bool()>& condition) {
+  const auto until = std::chrono::steady_clock::now() + kPatience;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > until) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

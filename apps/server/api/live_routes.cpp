@@ -76,6 +76,7 @@ Json live_json(const Studio& studio) {
           {"width", frame ? frame->image().cols : 0},
           {"height", frame ? frame->image().rows : 0},
           {"source_fps", rounded(status.fps)},
+          {"recognizing", studio.settings.options().live.recognize},
           {"recognized_fps", rounded(studio.live.fps())},
           {"dropped_frames", status.dropped + studio.metrics.skipped()},
           {"streams", studio.streams.load()},

@@ -28,7 +28,8 @@ Json full_object_json(const ObjectStore& store, const std::string& name) {
   const auto views = store.views(name);
   Json list = Json::array();
   for (const ViewSummary& view : views) list.push_back(view_json(view));
-  return {{"object", name}, {"views", std::move(list)}, {"next_yaw", next_yaw_json(views)}};
+  return {
+      {"object", name}, {"views", std::move(list)}, {"next_yaw", next_yaw_json(yaws_of(views))}};
 }
 
 Response undo_response(Studio& studio, const std::string& id) {

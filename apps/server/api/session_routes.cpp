@@ -1,4 +1,6 @@
 // /api/teach-sessions: background, proposal, views, name, save.
+#include <algorithm>
+
 #include "api/routes.hpp"
 #include "http/problem.hpp"
 #include "json.hpp"
@@ -14,6 +16,16 @@ SentPicture sent_or_newest(Body& body, const Studio& studio) {
   Bytes encoded = take_picture(body);
   return encoded.empty() ? from_frame(*newest_frame(studio))
                          : decode_sent(std::move(encoded), studio.limits);
+}
+
+/// What is known of the object that is to get further views; unnamed: it is a new one.
+ObjectModel object_of(const Request& request, const Studio& studio) {
+  const auto name = request.find("object");
+  if (!name) return {};
+  const auto models = studio.catalogue.recognizer()->models();
+  const auto at = std::ranges::find(models->objects(), *name, &ObjectModel::name);
+  if (at == models->objects().end()) throw not_found("there is no object '" + *name + "'");
+  return *at;
 }
 
 Response set_background(const Request& request, const Session& session, Studio& studio) {
@@ -77,8 +89,9 @@ void add_session_routes(Router& router, Studio& studio) {
                 for (const auto& session : studio.sessions.all()) list.push_back(session->json());
                 return json_response({{"sessions", std::move(list)}});
               }});
-  router.add({"POST", "/api/teach-sessions", Entry::protected_, [&studio](Request&) {
-                return json_response(studio.sessions.create()->json(), 201);
+  router.add({"POST", "/api/teach-sessions", Entry::protected_, [&studio](Request& request) {
+                const auto session = studio.sessions.create(object_of(request, studio));
+                return json_response(session->json(), 201);
               }});
   const auto add = [&](const char* method, const std::string& path, auto handler) {
     router.add({method, "/api/teach-sessions/{session}" + path, Entry::protected_,

@@ -6,6 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#ifdef POSEVOTE_WITH_VIDEO
+#include <opencv2/videoio.hpp>
+#endif
 
 #include "http/problem.hpp"
 #include "posevote/core/error.hpp"
@@ -26,9 +29,9 @@ class CameraTest : public testing::Test {
                 cv::Mat(40, 60, CV_8UC3, cv::Scalar::all(brightness)));
   }
 
-  /// Asks again at every ring; false after a minute.
+  /// Asks again at every ring; false after some minutes: the machine may be busy.
   bool until(const std::function<bool()>& condition) const {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
     std::uint64_t seen = bell_.rings();
     while (!condition()) {
       if (std::chrono::steady_clock::now() > end) return false;
@@ -73,6 +76,25 @@ TEST_F(CameraTest, AFolderThatIsGoneIsSaidToBeGone) {
     EXPECT_EQ(error.what(), "folder '" + folder_ + "' is not there any more");
   }
 }
+
+#ifdef POSEVOTE_WITH_VIDEO
+TEST_F(CameraTest, AVideoIsShownAgainAndAgain) {
+  const std::string path = folder_ + "/clip.avi";
+  {
+    cv::VideoWriter writer(path, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 100, {64, 48});
+    for (const int brightness : {50, 200})
+      writer.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(brightness)));
+  }
+  PostedFrames posted;
+  const auto source = open_source(path, {100, 25}, posted);
+  std::int64_t number = 0;
+  for (const int brightness : {50, 200, 50, 200}) {
+    const auto frame = source->next();
+    EXPECT_NEAR(frame->image.at<cv::Vec3b>(0, 0)[0], brightness, 5);
+    EXPECT_EQ(frame->number, number++);
+  }
+}
+#endif
 
 TEST_F(CameraTest, NamesOfSources) {
   EXPECT_EQ(parse_source("0").name, "camera:0");

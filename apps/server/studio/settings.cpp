@@ -11,8 +11,12 @@ namespace posevote::server {
 namespace {
 
 /// Worth showing to everybody; the dial comes first.
-constexpr std::array kBasic = {"recognize.verify.false_alarms_per_1000_images", "live.recognize",
-                               "live.max_fps", "live.stream_width", "live.stream_quality"};
+constexpr std::array kBasic = {"recognize.verify.false_alarms_per_1000_images",
+                               "recognize.unknown",
+                               "live.recognize",
+                               "live.max_fps",
+                               "live.stream_width",
+                               "live.stream_quality"};
 
 bool is_basic(const std::string& name) {
   return std::ranges::find(kBasic, name) != kBasic.end();

@@ -44,8 +44,8 @@ Json Proposal::json() const {
   return json;
 }
 
-TeachSession::TeachSession(std::string id, std::string path)
-    : id_(std::move(id)), path_(std::move(path)) {
+TeachSession::TeachSession(std::string id, std::string path, ObjectModel of)
+    : id_(std::move(id)), path_(std::move(path)), of_(std::move(of)) {
   if (std::filesystem::exists(path_)) draft_ = open_draft(path_);
 }
 
@@ -57,19 +57,21 @@ Json TeachSession::json() const {
   const std::lock_guard lock(mutex_);
   Json list = Json::array();
   const auto all = views();
-  bool known = false;
-  for (const ViewSummary& view : all) {
-    list.push_back(view_json(view));
-    known = known || std::isfinite(view.yaw_deg);
-  }
-  const Json next = next_yaw_json(all);
+  for (const ViewSummary& view : all) list.push_back(view_json(view));
+  std::vector<double> known, yaws = yaws_of(all);
+  for (const auto& view : of_.views)
+    if (std::isfinite(view->yaw_deg)) known.push_back(view->yaw_deg);
+  yaws.insert(yaws.end(), known.begin(), known.end());
+  const Json next = next_yaw_json(yaws);
   return {{"session", id_},
+          {"object", of_.name.empty() ? Json() : Json(of_.name)},
+          {"known_yaws", known},
           {"seconds", seconds()},
           {"background", background_.has_value()},
           {"proposal", proposal_.has_value()},
           {"views", std::move(list)},
           {"next_yaw", next},
-          {"enough", known && next.is_null()}};
+          {"enough", !yaws.empty() && next.is_null()}};
 }
 
 void TeachSession::touch() {
@@ -98,8 +100,17 @@ SentPicture TeachSession::background() const {
   return *background_;
 }
 
-Proposal TeachSession::examine(SentPicture picture, const Wish& wish,
-                               const TeachOptions& options) const {
+TeachSession::Known TeachSession::known() const {
+  Known known;
+  known.views = of_.views;
+  if (background_) known.background = background_->image;
+  if (draft_ && has_object(*draft_, kDraft))
+    for (const auto& view : draft_->load_object(kDraft).views) known.views.push_back(view);
+  return known;
+}
+
+Proposal TeachSession::examine(SentPicture picture, const Wish& wish, const TeachOptions& options,
+                               const Known& known) {
   ViewSource source;
   source.picture = wish.whole ? without_alpha(picture.image) : picture.image;
   source.yaw_deg = wish.yaw_deg;
@@ -111,9 +122,9 @@ Proposal TeachSession::examine(SentPicture picture, const Wish& wish,
   } else if (wish.roi) {
     proposal.method = "roi";
     source.roi = wish.roi;
-  } else if (background_ && !wish.whole) {
+  } else if (!known.background.empty() && !wish.whole) {
     proposal.method = "background";
-    source.background = background_->image;
+    source.background = known.background;
   }
   proposal.yaw_deg = wish.yaw_deg;
   proposal.picture = std::move(picture);
@@ -123,9 +134,7 @@ Proposal TeachSession::examine(SentPicture picture, const Wish& wish,
     View view = teach_view(source, options);
     QualityOptions quality;
     quality.feature = options.feature;
-    const auto others = draft_ && has_object(*draft_, kDraft) ? draft_->load_object(kDraft).views
-                                                              : ObjectModel().views;
-    proposal.quality = assess_view(view, others, quality);
+    proposal.quality = assess_view(view, known.views, quality);
     proposal.advice = proposal.quality->advice;
     proposal.view = std::move(view);
   } catch (const Error& error) {
@@ -135,22 +144,32 @@ Proposal TeachSession::examine(SentPicture picture, const Wish& wish,
   return proposal;
 }
 
-Proposal TeachSession::propose(SentPicture picture, const Wish& wish, const TeachOptions& options) {
+Proposal TeachSession::look(SentPicture picture, const Wish& wish, const TeachOptions& options) {
+  Known known_now;
+  {
+    const std::lock_guard lock(mutex_);
+    touch();
+    known_now = known();
+  }
+  Proposal proposal = examine(std::move(picture), wish, options, known_now);
   const std::lock_guard lock(mutex_);
   touch();
-  proposal_ = examine(std::move(picture), wish, options);
+  proposal_ = std::move(proposal);
   return *proposal_;
 }
 
+Proposal TeachSession::propose(SentPicture picture, const Wish& wish, const TeachOptions& options) {
+  const std::lock_guard one(looking_);
+  return look(std::move(picture), wish, options);
+}
+
 Proposal TeachSession::correct(const cv::Mat& mask, const TeachOptions& options) {
-  const std::lock_guard lock(mutex_);
-  touch();
-  if (!proposal_) throw not_found("there is no view in hand");
+  const std::lock_guard one(looking_);
+  const Proposal corrected = proposal();
   Wish wish;
   wish.mask = mask;
-  wish.yaw_deg = proposal_->yaw_deg;
-  proposal_ = examine(proposal_->picture, wish, options);
-  return *proposal_;
+  wish.yaw_deg = corrected.yaw_deg;
+  return look(corrected.picture, wish, options);
 }
 
 Proposal TeachSession::proposal() const {

@@ -39,8 +39,9 @@ struct Proposal {
 /// whatever happens to the process. Safe for many threads.
 class TeachSession {
  public:
-  /// `path`: the database's file, which may be there from an earlier run.
-  TeachSession(std::string id, std::string path);
+  /// `path`: the database's file, which may be there from an earlier run. `of`: what is known of
+  /// the object, when it gets further views.
+  TeachSession(std::string id, std::string path, ObjectModel of = {});
 
   [[nodiscard]] const std::string& id() const { return id_; }
   [[nodiscard]] Json json() const;
@@ -51,8 +52,9 @@ class TeachSession {
   void set_background(SentPicture background);
   [[nodiscard]] SentPicture background() const;  ///< throws Problem 404 without
 
-  /// Looks for the object. What makes a picture unusable becomes the proposal's advice; throws
-  /// Error{invalid_argument} for a mask of another size, a rectangle outside and the like.
+  /// Looks for the object, one look at a time; all else is answered meanwhile. What makes a picture
+  /// unusable becomes the proposal's advice; throws Error{invalid_argument} for a mask of another
+  /// size, a rectangle outside and the like.
   Proposal propose(SentPicture picture, const Wish& wish, const TeachOptions& options);
   /// The same picture again with this mask. Throws Problem 404 without a proposal.
   Proposal correct(const cv::Mat& mask, const TeachOptions& options);
@@ -70,19 +72,30 @@ class TeachSession {
   [[nodiscard]] std::vector<AddResult> save(ObjectStore& store, const std::string& object,
                                             bool add_to_existing) const;
 
-  /// Removes its file; from then on all others throw Problem 404.
+  /// Removes its file; from then on all others throw Problem 404, a look under way at its end.
   void discard();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  Proposal examine(SentPicture picture, const Wish& wish, const TeachOptions& options) const;
+  /// What a look compares with.
+  struct Known {
+    cv::Mat background;  ///< empty: none
+    std::vector<std::shared_ptr<const View>> views;
+  };
+  [[nodiscard]] Known known() const;
+  static Proposal examine(SentPicture picture, const Wish& wish, const TeachOptions& options,
+                          const Known& known);
+  /// `looking_` is held, `mutex_` is not.
+  Proposal look(SentPicture picture, const Wish& wish, const TeachOptions& options);
   [[nodiscard]] std::vector<ViewSummary> views() const;
   /// To be called, locked, by whatever changes it.
   void touch();
 
   const std::string id_, path_;
+  const ObjectModel of_;  ///< unnamed: a new object
   Clock::time_point begun_ = Clock::now(), touched_ = begun_;
+  std::mutex looking_;  ///< held while a picture is looked at; taken before `mutex_`
   mutable std::mutex mutex_;
   std::optional<SentPicture> background_;
   std::optional<Proposal> proposal_;

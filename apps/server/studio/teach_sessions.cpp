@@ -27,14 +27,15 @@ TeachSessions::TeachSessions(std::string folder, const Limits& limits,
   }
 }
 
-std::shared_ptr<TeachSession> TeachSessions::create() {
+std::shared_ptr<TeachSession> TeachSessions::create(ObjectModel of) {
   expire();
   const std::string id = random_hex(16);
   const std::lock_guard lock(mutex_);
   if (static_cast<int>(sessions_.size()) >= limits_.sessions)
     throw too_many("there are " + std::to_string(sessions_.size()) +
                    " teach sessions in hand; save or discard one first");
-  return sessions_[id] = std::make_shared<TeachSession>(id, folder_ + "/" + id + kEnding);
+  return sessions_[id] =
+             std::make_shared<TeachSession>(id, folder_ + "/" + id + kEnding, std::move(of));
 }
 
 std::shared_ptr<TeachSession> TeachSessions::find(const std::string& id) const {

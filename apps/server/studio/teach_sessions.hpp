@@ -19,8 +19,8 @@ class TeachSessions {
   TeachSessions(std::string folder, const Limits& limits,
                 const std::function<void(const std::string&)>& problem);
 
-  /// Throws Problem 429 when there are too many.
-  [[nodiscard]] std::shared_ptr<TeachSession> create();
+  /// Throws Problem 429 when there are too many. `of`: see TeachSession.
+  [[nodiscard]] std::shared_ptr<TeachSession> create(ObjectModel of = {});
   /// Throws Problem 404.
   [[nodiscard]] std::shared_ptr<TeachSession> find(const std::string& id) const;
   [[nodiscard]] std::vector<std::shared_ptr<TeachSession>> all() const;  ///< oldest first

@@ -6,8 +6,10 @@ import { Studio } from "./studio";
 
 const kPages = ["#/live", "#/objects", "#/objects/mug", "#/teach", "#/try", "#/settings", "#/api"];
 const kSizes = [
-  { name: "phone", viewport: { width: 360, height: 740 }, isMobile: true, colorScheme: "dark" as const },
-  { name: "phone-light", viewport: { width: 360, height: 740 }, isMobile: true, colorScheme: "light" as const },
+  { name: "phone", viewport: { width: 360, height: 740 }, isMobile: true, colorScheme: "light" as const },
+  { name: "phone-dark", viewport: { width: 360, height: 740 }, isMobile: true, colorScheme: "dark" as const },
+  { name: "desk", viewport: { width: 1280, height: 800 }, colorScheme: "light" as const },
+  { name: "desk-dark", viewport: { width: 1280, height: 800 }, colorScheme: "dark" as const },
   { name: "wide", viewport: { width: 1920, height: 1080 }, colorScheme: "light" as const },
   { name: "wide-dark", viewport: { width: 1920, height: 1080 }, colorScheme: "dark" as const },
 ];

@@ -23,6 +23,24 @@ test("settings are changed, are in force, and go back to their defaults", async 
   await studio.stop();
 });
 
+test("unknown parts are drawn when that is wanted, nothing when recognition is off", async () => {
+  const studio = await Studio.start();
+  await studio.teach("poster", ["cover"]);
+  await studio.show("test/strangers.jpg");
+  const page = await studio.open("#/live");
+  await page.getByText("Nothing that was taught is in the picture").waitFor();
+  expect(await page.locator(".found").count()).toBe(0);
+  await studio.change({ "recognize.unknown": true });
+  await page.locator(".found.unknown").first().waitFor();
+  await page.getByText("Something unknown").first().hover();
+  await page.locator(".found.unknown.chosen").waitFor();
+  await studio.shoot(page, "unknown");
+  await studio.change({ "live.recognize": false });
+  await page.getByText("Recognition is switched off").waitFor();
+  expect(await page.locator(".found").count()).toBe(0);
+  await studio.stop();
+});
+
 test("without the token nobody enters; with it everybody", async () => {
   const folder = mkdtempSync(join(tmpdir(), "posevote-token-"));
   writeFileSync(join(folder, "token"), kToken);

@@ -1,7 +1,8 @@
 // The real server with a browser before it. POSEVOTE_PROGRAM and POSEVOTE_DEMO name the executable
-// and the demo set; POSEVOTE_SHOTS, if set, the folder for screenshots.
+// and the demo set; POSEVOTE_SHOTS, if set, a folder for all screenshots, POSEVOTE_DOCS one for those
+// of docs/studio.md.
 import { spawn, type ChildProcess } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -10,6 +11,19 @@ import { chromium, type Browser, type BrowserContextOptions, type Page } from "p
 
 export const demo = needed("POSEVOTE_DEMO");
 const shots = process.env.POSEVOTE_SHOTS;
+const docs = process.env.POSEVOTE_DOCS;
+
+/// Screenshots that docs/studio.md shows, and what they are called there.
+const kInDocs: Record<string, string> = {
+  "desk-live": "live",
+  "desk-dark-live": "dark",
+  "phone-live": "phone",
+  teach: "teach",
+  mask: "mask",
+  objects: "objects",
+  view: "view",
+  "why-not": "why",
+};
 
 const kFrameMs = 500;
 const kTicks = 100; // a second, of /proc/PID/stat
@@ -107,6 +121,20 @@ export class Studio {
     return (Number(user) + Number(system)) / kTicks;
   }
 
+  /// How much longer its work took so far than on a machine that does nothing else: the time that
+  /// its threads had a processor or waited for one, over the time that they had one.
+  server_slowness(): number {
+    const threads = `/proc/${this.server.pid}/task`;
+    let ran = 0;
+    let waited = 0;
+    for (const thread of readdirSync(threads)) {
+      const [running, queueing] = schedule_of(`${threads}/${thread}`);
+      ran += running;
+      waited += queueing;
+    }
+    return ran > 0 ? (ran + waited) / ran : 1;
+  }
+
   async ask<T>(method: string, path: string, body?: Uint8Array<ArrayBuffer>): Promise<T> {
     const response = await fetch(`${this.address}/api/${path}`, {
       method,
@@ -114,6 +142,10 @@ export class Studio {
     });
     if (!response.ok) throw new Error(`${method} ${path}: ${response.status} ${await response.text()}`);
     return (await response.json()) as T;
+  }
+
+  async change(settings: Record<string, boolean | number | string>): Promise<void> {
+    await this.ask("PATCH", "settings", new TextEncoder().encode(JSON.stringify(settings)));
   }
 
   /// Teaches without the page: views of a folder of the demo set.
@@ -129,6 +161,8 @@ export class Studio {
   }
 
   async shoot(page: Page, name: string): Promise<void> {
+    if (docs && kInDocs[name])
+      await page.screenshot({ path: join(docs, `${kInDocs[name]}.jpg`), type: "jpeg", quality: 82 });
     if (!shots) return;
     mkdirSync(shots, { recursive: true });
     await page.screenshot({ path: join(shots, `${name}.png`) });
@@ -148,6 +182,17 @@ export class Studio {
     }
     rmSync(this.folder, { recursive: true });
     if (this.complaints.length) throw new Error(`${this.complaints.join("\n")}\nThe server said:\n${this.said.join("")}`);
+  }
+}
+
+/// Nanoseconds on a processor, and in the queue for one; none where the thread has just ended, or the
+/// kernel does not count.
+function schedule_of(thread: string): [number, number] {
+  try {
+    const [running, queueing] = readFileSync(`${thread}/schedstat`, "utf8").split(" ").map(Number);
+    return [running!, queueing!];
+  } catch {
+    return [0, 0];
   }
 }
 

@@ -1,5 +1,6 @@
 import { afterAll, beforeAll, expect, test } from "vitest";
 import type { Page } from "playwright-core";
+import { check_for_everybody } from "./axe";
 import { picture, Studio } from "./studio";
 
 let studio: Studio;
@@ -30,12 +31,13 @@ interface Dataset {
   tests: { image: string; objects: { name: string; box: [number, number, number, number] }[] }[];
 }
 
-/// Seconds that teaching may take; on a machine that does nothing else a minute is to be enough.
-const kLimitS = Number(process.env.POSEVOTE_LIMIT_S ?? Infinity);
+/// What a person needs beside the machine: the test clicks at once, and its object turns by itself.
+const kClickS = 1.5;
+const kTurnS = 4;
 
 test("an object is taught in under a minute and recognised in the very next frame", async () => {
   await studio.show("train/tea-mint/background.jpg");
-  page = await studio.open("#/live");
+  page = await studio.open("#/live", { bypassCSP: true });
   const begin = performance.now();
   const used_before_s = studio.server_seconds();
   await page.evaluate(count_clicks);
@@ -68,12 +70,16 @@ test("an object is taught in under a minute and recognised in the very next fram
   const taken_s = (performance.now() - begin) / 1000;
   const used_s = studio.server_seconds() - used_before_s;
   const clicks = await page.evaluate(() => (globalThis as Counting).clicks);
-  console.info(
-    `Taught and recognised in ${taken_s.toFixed(1)} s with ${clicks} clicks; the server computed for ${used_s.toFixed(1)} s.`,
-  );
   expect(clicks).toBe(kViews.length + 3); // "New object", "The table is empty", the views, "Save"
-  expect(used_s).toBeLessThan(30);
-  expect(taken_s).toBeLessThan(kLimitS);
+  const slowness = studio.server_slowness();
+  const alone_s = taken_s / slowness; // what others did on this machine meanwhile is not teaching
+  const person_s = clicks! * kClickS + kViews.length * kTurnS;
+  console.info(
+    `Taught and recognised in ${taken_s.toFixed(1)} s with ${clicks} clicks; the server computed for ${used_s.toFixed(1)} s. ` +
+      `The machine was slowed down ${slowness.toFixed(1)} times by others: ${alone_s.toFixed(1)} s, ` +
+      `and ${person_s.toFixed(1)} s for a person's hands.`,
+  );
+  expect(alone_s + person_s).toBeLessThan(60);
   await page.locator(".found-name", { hasText: "tea-mint" }).waitFor();
   await studio.shoot(page, "live");
 });
@@ -116,6 +122,7 @@ test("a side that is known already is said to add little", async () => {
   await page.getByRole("button", { name: "Take this view" }).click();
   await page.locator(".verdict.warn").waitFor();
   expect(await page.locator(".verdict").textContent()).toContain("known already");
+  await check_for_everybody(page, "teaching");
 });
 
 test("views that were taken outlive a reload, and can be taken out", async () => {
@@ -134,6 +141,7 @@ test("a mask is corrected by keyboard and taken", async () => {
   await canvas.press("Space");
   await studio.shoot(page, "mask");
   expect(await page.evaluate(veil_at_brush)).toBeGreaterThan(100);
+  await check_for_everybody(page, "mask");
   await page.getByRole("button", { name: "Use this mask" }).click();
   await page.getByText("1 view taken").waitFor();
 });

@@ -1,4 +1,4 @@
-// The door: the token that the server printed when it began.
+// The door: the token that the server was started with.
 import { useState } from "preact/hooks";
 import { get_access, login } from "./api/calls";
 import { access } from "./api/client";
@@ -19,7 +19,7 @@ export function Login() {
     <main class="login">
       <form class="card stack" onSubmit={(event) => void enter(event)}>
         <h1>posevote studio</h1>
-        <p class="muted">This server asks for its token. It was set or printed when “posevote serve” was started.</p>
+        <p class="muted">This server asks for its token: the first line of the file that “posevote serve” was started with.</p>
         <label class="field">
           <span class="label">Token</span>
           <input

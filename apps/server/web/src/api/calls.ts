@@ -56,8 +56,9 @@ export const import_objects = (body: Blob, existing: string) =>
 const kSessions = "teach-sessions";
 export const list_sessions = (signal: AbortSignal) =>
   ask<{ sessions: t.TeachSession[] }>("GET", [kSessions], { signal });
-export const create_session = () => ask<t.TeachSession>("POST", [kSessions]);
-export const discard_session = (id: string) => ask("DELETE", [kSessions, id]);
+/// `object`: it gets further views; none: a new one.
+export const create_session = (object?: string) => ask<t.TeachSession>("POST", [kSessions], { query: { object } });
+export const discard_session = (id: string) => ask("DELETE", [kSessions, id], { keepalive: true });
 export const set_background = (id: string, body?: Blob) =>
   ask<t.TeachSession>("PUT", [kSessions, id, "background"], { body });
 

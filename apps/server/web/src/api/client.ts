@@ -14,6 +14,7 @@ export interface Asked {
   json?: unknown;
   body?: Blob | FormData;
   signal?: AbortSignal;
+  keepalive?: boolean; // also when the page is being closed
 }
 
 /// What the server lets this client do; null until it has said so.
@@ -31,6 +32,7 @@ export async function ask<T = void>(method: string, parts: string[], asked: Aske
     body: asked.json === undefined ? asked.body : JSON.stringify(asked.json),
     headers: asked.json === undefined ? {} : { "Content-Type": "application/json" },
     signal: asked.signal,
+    keepalive: asked.keepalive,
   });
   const is_json = response.headers.get("Content-Type")?.startsWith("application/json");
   return (is_json ? await response.json() : undefined) as T;

@@ -11,6 +11,14 @@ export const connected = signal(true);
 
 const kRetryMs = 1500;
 
+/// By name, and copies from left to right: ordered by how sure they are, they would change places all the time.
+export function in_order(recognition: Recognition): Recognition {
+  const detections = [...recognition.detections].sort(
+    (a, b) => a.object.localeCompare(b.object) || a.box[0] - b.box[0],
+  );
+  return { ...recognition, detections };
+}
+
 /// Listens until the returned function is called; begins again by itself when the server goes away.
 export function listen(): () => void {
   let events: EventSource | null = null;
@@ -19,7 +27,7 @@ export function listen(): () => void {
     events = new EventSource("/api/events");
     events.onopen = () => (connected.value = true);
     events.addEventListener("live", (event) => (live.value = JSON.parse(event.data)));
-    events.addEventListener("result", (event) => (result.value = JSON.parse(event.data)));
+    events.addEventListener("result", (event) => (result.value = in_order(JSON.parse(event.data))));
     events.addEventListener("objects", (event) => (objects_version.value = JSON.parse(event.data).version));
     events.onerror = () => {
       connected.value = false;

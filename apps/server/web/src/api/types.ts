@@ -21,6 +21,7 @@ export interface Live {
   width: number;
   height: number;
   source_fps: number;
+  recognizing: boolean;
   recognized_fps: number;
   objects: number;
   version: number;
@@ -29,13 +30,18 @@ export interface Live {
 export interface Detection {
   object: string;
   view: string;
-  confidence: number;
-  probability: number;
+  confidence: number;  // Eq. 11: share of the features in its area that agree
+  probability: number;  // 0: none is computed, as with the preset of the paper
   inliers: number;
   features_in_area: number;
   outline: Point[];
   box: Box;
   alternatives?: string[];
+}
+
+export interface UnknownRegion {
+  box: Box;
+  features: number;
 }
 
 export interface Recognition {
@@ -46,6 +52,7 @@ export interface Recognition {
   time_ms: Record<"detect" | "match" | "vote" | "verify" | "total", number>;
   counts: Record<"features" | "matched" | "clustered" | "verified", number>;
   detections: Detection[];
+  unknown?: UnknownRegion[];
 }
 
 export interface Explanation {
@@ -123,6 +130,8 @@ export interface Impostor {
 
 export interface TeachSession {
   session: string;
+  object: string | null; // that gets further views
+  known_yaws: number[]; // of the views that it has already
   seconds: number;
   background: boolean;
   views: ViewSummary[];

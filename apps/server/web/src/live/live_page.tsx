@@ -16,7 +16,7 @@ import "./live_page.css";
 
 export function LivePage() {
   const shown = use_glide();
-  const { running, current, on_frame } = use_current();
+  const { running, looking, current, on_frame } = use_current();
   const [chosen, set_chosen] = useState<number>();
   const newest = result.value;
   const size = newest ?? live_size();
@@ -25,7 +25,13 @@ export function LivePage() {
       <h1 class="hidden-text">Live picture</h1>
       <div class="stack tight">
         <LivePicture label="Live picture with what is recognised" on_frame={on_frame}>
-          <Overlay width={size.width} height={size.height} detections={current ? shown : []} chosen={chosen} />
+          <Overlay
+            width={size.width}
+            height={size.height}
+            detections={current ? shown : []}
+            unknown={current ? newest?.unknown : []}
+            chosen={chosen}
+          />
         </LivePicture>
         <Rates />
       </div>
@@ -40,10 +46,17 @@ export function LivePage() {
           </State>
         ) : (
           <DetectionList
-            detections={(running && newest?.detections) || []}
+            detections={(looking && newest?.detections) || []}
+            unknown={looking ? newest?.unknown : []}
             frame={newest?.frame}
             on_choose={set_chosen}
-            empty={running ? "Nothing that was taught is in the picture." : "There is no picture now."}
+            empty={
+              looking
+                ? "Nothing that was taught is in the picture."
+                : running
+                  ? "Recognition is switched off in the settings."
+                  : "There is no picture now."
+            }
           />
         )}
         {live.value?.objects ? (

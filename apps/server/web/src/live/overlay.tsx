@@ -1,20 +1,27 @@
 // Outlines and names over a picture of `width` x `height`; the parent gives the place.
 import { colour_of } from "./colour";
-import { percent } from "../ui/numbers";
-import type { Detection } from "../api/types";
+import type { Detection, UnknownRegion } from "../api/types";
+import { sureness } from "./sureness";
 import "./overlay.css";
 
 interface Props {
   width: number;
   height: number;
   detections: Detection[];
-  chosen?: number;
+  unknown?: UnknownRegion[];
+  chosen?: number;  // unknown parts come after the detections
 }
 
-export function Overlay({ width, height, detections, chosen }: Props) {
+export function Overlay({ width, height, detections, unknown = [], chosen }: Props) {
   return (
     <div class="overlay" aria-hidden="true">
       <svg viewBox={`0 0 ${width} ${height}`} preserveAspectRatio="none">
+        {unknown.map(({ box: [x, y, w, h] }, i) => (
+          <g key={`unknown ${i}`} class={detections.length + i === chosen ? "found unknown chosen" : "found unknown"}>
+            <rect class="halo" x={x} y={y} width={w} height={h} />
+            <rect class="edge" x={x} y={y} width={w} height={h} />
+          </g>
+        ))}
         {detections.map((found, i) => {
           const points = found.outline.map(([x, y]) => `${x + 0.5},${y + 0.5}`).join(" ");
           return (
@@ -38,7 +45,7 @@ export function Overlay({ width, height, detections, chosen }: Props) {
               borderColor: colour_of(found.object),
             }}
           >
-            {found.object} <b>{percent(found.confidence)}</b>
+            {found.object} <b>{sureness(found)}</b>
           </span>
         );
       })}

@@ -4,7 +4,14 @@ import { connected, live, result } from "../api/events";
 import type { OnFrame } from "./frames";
 import { SceneMemory } from "./scene_memory";
 
-export function use_current(): { running: boolean; current: boolean; on_frame: OnFrame } {
+interface Current {
+  running: boolean; // pictures come
+  looking: boolean; // and are searched
+  current: boolean; // and the result is about what is shown
+  on_frame: OnFrame;
+}
+
+export function use_current(): Current {
   const [, draw_again] = useReducer((count: number) => count + 1, 0);
   const memory = useMemo(() => ({ scenes: new SceneMemory(), drawn: true }), []);
   const is_current = (): boolean => memory.scenes.still_shows(result.value?.frame ?? -1);
@@ -14,5 +21,6 @@ export function use_current(): { running: boolean; current: boolean; on_frame: O
   };
   memory.drawn = is_current();
   const running = connected.value && live.value?.state === "running";
-  return { running, current: running && memory.drawn, on_frame };
+  const looking = running && live.value!.recognizing;
+  return { running, looking, current: looking && memory.drawn, on_frame };
 }

@@ -4,6 +4,7 @@ import { rename_object } from "../api/calls";
 import { go_to } from "../router";
 import { Dialog } from "../ui/dialog";
 import { use_problem } from "../ui/problem";
+import { attempt, say } from "../ui/toast";
 
 export function RenameDialog({ name, on_close }: { name: string; on_close: () => void }) {
   const [wanted, set_wanted] = useState(name);
@@ -12,6 +13,10 @@ export function RenameDialog({ name, on_close }: { name: string; on_close: () =>
     const { object } = await rename_object(name, wanted.trim());
     on_close();
     go_to("objects", object);
+    say(`“${name}” is now called “${object}”.`, {
+      label: "Undo",
+      run: () => void attempt(async () => go_to("objects", (await rename_object(object, name)).object)),
+    });
   }
   return (
     <Dialog title={`Rename “${name}”`} on_close={on_close}>

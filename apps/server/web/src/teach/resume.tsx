@@ -13,8 +13,8 @@ export function Resume({ on_resume }: { on_resume: (session: TeachSession) => vo
       {left.map((session) => (
         <div key={session.session} class="note warn row spread">
           <span>
-            An object that was begun {clock(session.seconds * 1000)} ago has {count(session.views.length, "view")} and no
-            name yet.
+            {session.object ? `More of “${session.object}”` : "An object without a name yet"}:{" "}
+            {count(session.views.length, "view")}, begun {clock(session.seconds * 1000)} ago and not saved.
           </span>
           <span class="row">
             <button class="button" onClick={() => on_resume(session)}>

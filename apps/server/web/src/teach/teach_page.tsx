@@ -1,5 +1,5 @@
 // New object: by the robot's camera, this device's camera, or pictures - all into one session.
-import { useMemo, useState } from "preact/hooks";
+import { useEffect, useMemo, useState } from "preact/hooks";
 import { live } from "../api/events";
 import type { Saved } from "../api/types";
 import { go_to } from "../router";
@@ -18,9 +18,17 @@ const kWays = { camera: "Robot camera", device: "This device", pictures: "Pictur
 type Way = keyof typeof kWays;
 
 export function TeachPage({ name }: { name: string }) {
-  const teaching = useMemo(() => new Teaching(), []);
+  const teaching = useMemo(() => new Teaching(name || undefined), []);
   const [way, set_way] = useState<Way>(live.value?.state === "lost" ? "pictures" : "camera");
   const session = teaching.session.value;
+  useEffect(() => {
+    const leave = (): void => teaching.leave();
+    addEventListener("pagehide", leave);
+    return () => {
+      removeEventListener("pagehide", leave);
+      teaching.close();
+    };
+  }, []);
 
   function choose(chosen: Way): void {
     teaching.proposal.value = null;

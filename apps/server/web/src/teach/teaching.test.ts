@@ -6,8 +6,8 @@ function view(yaw: number | null): ViewSummary {
   return { view: "1", yaw, width: 4, height: 3, features: 9, coverage: 1, method: "mask", source: "", taught_at: "" };
 }
 
-function session(yaws: (number | null)[], next_yaw: number | null = null): TeachSession {
-  return { session: "s1", seconds: 2, background: false, views: yaws.map(view), next_yaw, enough: false };
+function session(yaws: (number | null)[], next_yaw: number | null = null, known_yaws: number[] = []): TeachSession {
+  return { session: "s1", object: null, known_yaws, seconds: 2, background: false, views: yaws.map(view), next_yaw, enough: false };
 }
 
 let asked: string[];
@@ -29,6 +29,14 @@ test("the next side is the largest gap, else a turn on from the last", () => {
   expect(next_side(session([0]))).toBe(30);
   expect(next_side(session([330]))).toBe(0);
   expect(next_side(session([0, 30], 178))).toBe(180);
+  expect(next_side(session([], 58, [0, 30]))).toBe(60);
+});
+
+test("an object that gets further views goes on where they end", async () => {
+  answers["POST /api/teach-sessions?object=mug"] = session([], 60, [0, 30]);
+  const teaching = new Teaching("mug");
+  await teaching.look({});
+  expect(teaching.yaw.value).toBe(60);
 });
 
 test("a session begins with the first need and only once", async () => {
@@ -63,6 +71,25 @@ test("a cover has no side, before and after", async () => {
   teaching.yaw.value = null;
   expect(await teaching.take({ whole: true })).toBe(true);
   expect(teaching.yaw.value).toBeNull();
+});
+
+test("only a session without views is thrown away when the page goes", async () => {
+  const teaching = new Teaching();
+  teaching.adopt(session([0]));
+  teaching.leave();
+  expect(asked).toEqual([]);
+  teaching.adopt(session([]));
+  teaching.leave();
+  expect(asked).toEqual(["DELETE /api/teach-sessions/s1"]);
+  expect(teaching.session.value).toBeNull();
+});
+
+test("a page that was left begins no session", async () => {
+  const teaching = new Teaching();
+  const looking = teaching.look({});
+  teaching.close();
+  await expect(looking).rejects.toThrow();
+  expect(asked).toEqual([]);
 });
 
 test("looks do not overtake each other", async () => {

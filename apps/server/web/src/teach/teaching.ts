@@ -16,6 +16,9 @@ export class Teaching {
   /// Why the last look gave nothing; empty when it did.
   readonly trouble = signal("");
 
+  /// `of`: an object that gets further views; none: a new one.
+  constructor(private readonly of?: string) {}
+
   /// Goes on with a session that is there already.
   adopt(session: TeachSession): void {
     this.begin(session);
@@ -85,12 +88,25 @@ export class Teaching {
     return api.save_session(await this.id(), name, add_to_existing);
   }
 
-  async discard(): Promise<void> {
-    if (this.session.value) await api.discard_session(this.session.value.session);
-    this.session.value = this.proposal.value = this.begun.value = null;
-    this.yaw.value = 0;
+  /// The page goes: a session that has views can be gone on with later, an empty one would only take a place.
+  leave(): void {
+    if (this.session.value?.views.length === 0) void this.discard().catch(() => undefined);
   }
 
+  /// Nothing is asked any more: a look that was about to begin would begin a session, too.
+  close(): void {
+    this.closed = true;
+    this.leave();
+  }
+
+  async discard(): Promise<void> {
+    const left = this.session.value;
+    this.session.value = this.proposal.value = this.begun.value = null;
+    this.yaw.value = 0;
+    if (left) await api.discard_session(left.session);
+  }
+
+  private closed = false;
   private looking: Promise<unknown> = Promise.resolve();
   private beginning: Promise<TeachSession> | null = null;
 
@@ -100,18 +116,28 @@ export class Teaching {
   }
 
   private async id(): Promise<string> {
+    if (this.closed) throw new Error("This page was left.");
     if (!this.session.value) {
-      this.beginning ??= api.create_session().finally(() => (this.beginning = null));
+      this.beginning ??= api.create_session(this.of).finally(() => (this.beginning = null));
       const session = await this.beginning;
-      if (!this.session.value) this.begin(session);
+      if (!this.session.value) {
+        this.begin(session);
+        if (session.known_yaws.length > 0) this.yaw.value = next_side(session);
+      }
     }
     return this.session.value!.session;
   }
 }
 
+/// Sides that are known: of the views taken, after those that the object had before.
+export const sides_of = ({ known_yaws, views }: TeachSession): number[] => [
+  ...known_yaws,
+  ...views.map(({ yaw }) => yaw).filter((yaw) => yaw != null),
+];
+
 /// Where to turn the object next: into the largest gap, else on from the last view.
 export function next_side(session: TeachSession): number {
-  const known = session.views.map((view) => view.yaw).filter((yaw) => yaw != null);
+  const known = sides_of(session);
   if (known.length === 0) return 0;
   const next = session.next_yaw ?? known.at(-1)! + kTurnDeg;
   return wrap(Math.round(next / kTurnDeg) * kTurnDeg);

@@ -5,7 +5,7 @@ import { sentence } from "../ui/numbers";
 import { attempt } from "../ui/toast";
 import { ProposalMask } from "./proposal_mask";
 import { Ring } from "./ring";
-import { kTurnDeg, type Teaching } from "./teaching";
+import { kTurnDeg, sides_of, type Teaching } from "./teaching";
 import { Verdict } from "./verdict";
 
 interface Props {
@@ -42,7 +42,7 @@ export function Turntable({ teaching, ready, grab }: Props) {
         <Instruction step={!background ? 0 : views.length === 0 ? 1 : session!.enough ? 3 : 2} />
         {background && (
           <Ring
-            yaws={views.map((view) => view.yaw).filter((yaw) => yaw != null)}
+            yaws={sides_of(session!)}
             reach_deg={kTurnDeg / 2}
             chosen={teaching.yaw.value ?? 0}
             on_choose={(yaw) => (teaching.yaw.value = yaw)}

@@ -42,7 +42,13 @@ export function TryPage() {
           <Stage width={found?.width ?? 4} height={found?.height ?? 3} label={tried.file.name}>
             <img src={tried.url} alt={`Picture ${tried.file.name}`} />
             {found && (
-              <Overlay width={found.width} height={found.height} detections={found.detections} chosen={chosen} />
+              <Overlay
+                width={found.width}
+                height={found.height}
+                detections={found.detections}
+                unknown={found.unknown}
+                chosen={chosen}
+              />
             )}
           </Stage>
           <section class="stack" aria-label="Result" aria-busy={!found}>
@@ -51,6 +57,7 @@ export function TryPage() {
               <>
                 <DetectionList
                   detections={found.detections}
+                  unknown={found.unknown}
                   picture={tried.file}
                   on_choose={set_chosen}
                   empty="None of the taught objects was found. Is the object large enough, sharp, and seen from a side that was taught?"

@@ -11,6 +11,7 @@ interface Toast {
 
 const toasts = signal<Toast[]>([]);
 const kShownMs = 6000;
+const kActionMs = 30_000; // a way back is not to be missed
 let last_id = 0;
 
 function remove(id: number): void {
@@ -20,7 +21,7 @@ function remove(id: number): void {
 export function say(text: string, action?: Toast["action"], kind: Toast["kind"] = "info"): void {
   const id = ++last_id;
   toasts.value = [...toasts.value.slice(-1), { id, text, kind, action }];
-  setTimeout(() => remove(id), action ? 2 * kShownMs : kShownMs);
+  setTimeout(() => remove(id), action ? kActionMs : kShownMs);
 }
 
 export function say_error(error: unknown): void {

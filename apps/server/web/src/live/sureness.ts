@@ -1,0 +1,13 @@
+// How sure is a detection? The calibrated probability, or, where none is computed, Eq. 11.
+import type { Detection } from "../api/types";
+import { percent } from "../ui/numbers";
+
+export function sureness({ probability, confidence }: Detection): string {
+  const share = probability || confidence;
+  return share > 0.99 ? "> 99 %" : percent(share); // nothing is quite certain
+}
+
+/// What stands behind it, for whoever wants to know.
+export function evidence_of({ inliers, features_in_area, confidence }: Detection): string {
+  return `${inliers} of ${features_in_area} features there agree on it: ${percent(confidence)} (Eq. 11)`;
+}

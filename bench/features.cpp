@@ -5,8 +5,10 @@
 // are mosaics of the photographs in FOLDER (default ../shared/data/oxford-affine) at their own
 // resolution, or FILE scaled to each size. Printed per size and number of key points: the median
 // time of each, the median of the ratios of neighbouring turns (wall clock and processor time), our
-// stages, and before everything else the machine's memory bandwidth and our peak memory at 8
-// megapixels.
+// stages, and how many times longer these take than the memory for the numbers that they read and
+// write (each once from a sequential stream: the least that any method needs). Before everything
+// else the machine's memory bandwidth and our peak memory at 8 megapixels. The rows "default" are
+// what recognition does with a picture of that size, the picture doubled where it is small.
 #include <dlib/image_keypoint.h>
 #include <dlib/opencv.h>
 #include <sys/resource.h>
@@ -99,6 +101,15 @@ double peak_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+// Bytes that a step has to read and write at least.
+struct Traffic {
+  double integral, hessian, orientation, descriptor;
+};
+Traffic traffic_of(double pixels, double keypoints) {
+  const double sums = pixels * 4 * 4 / 3;  // of all levels
+  return {pixels + sums, sums, keypoints * 12 * 12 * 4, keypoints * (16 * 16 * 4 + 64) * 4};
+}
+
 struct Series {
   std::vector<double> wall, processor;
   void add(const Duration& duration) {
@@ -114,9 +125,14 @@ double ratio(const std::vector<double>& ours, const std::vector<double>& theirs)
   return median(ratios);
 }
 
-void compare(const cv::Mat& picture, int count, int rounds) {
+struct Case {
+  std::string name;
   posevote::FeatureOptions options;
-  options.max_features = count;
+};
+
+void compare(const cv::Mat& picture, const Case& of, double bandwidth, int rounds) {
+  const auto& options = of.options;
+  const int count = options.max_features;
   auto two = options;
   two.surf.threads = 2;
   Workspace one_workspace, two_workspace;
@@ -152,15 +168,26 @@ void compare(const cv::Mat& picture, int count, int rounds) {
     for (const StageTimes& times : stages) values.push_back(times.*field);
     return median(values);
   };
+  const double integral = stage(&StageTimes::integral), hessian = stage(&StageTimes::hessian);
+  const double orientation = stage(&StageTimes::orientation);
+  const double descriptor = stage(&StageTimes::descriptor);
   std::printf(
-      "%4dx%-4d %5zu/%5zu/%5zu | %7.2f %7.2f %8.2f %7.2f | %5.2f (%4.2f)  %5.1f (%4.1f)  %4.2f"
-      " | %5.2f %6.2f %5.2f %5.2f %5.2f\n",
-      picture.cols, picture.rows, found, orb_found, dlib_found, median(ours.wall),
+      "%4dx%-4d %-7s %5zu/%5zu/%5zu | %7.2f %7.2f %8.2f %7.2f | %5.2f (%4.2f)  %5.1f (%4.1f)  %4.2f"
+      " | %5.2f %6.2f %5.2f %5.2f %5.2f",
+      picture.cols, picture.rows, of.name.c_str(), found, orb_found, dlib_found, median(ours.wall),
       median(orbs.wall), median(dlibs.wall), median(pair.wall), ratio(ours.wall, orbs.wall),
       ratio(ours.processor, orbs.processor), ratio(dlibs.wall, every_fourth.wall),
-      ratio(dlibs.processor, every_fourth.processor), ratio(ours.wall, pair.wall),
-      stage(&StageTimes::integral), stage(&StageTimes::hessian), stage(&StageTimes::selection),
-      stage(&StageTimes::orientation), stage(&StageTimes::descriptor));
+      ratio(dlibs.processor, every_fourth.processor), ratio(ours.wall, pair.wall), integral,
+      hessian, stage(&StageTimes::suppression), orientation, descriptor);
+  const double pixels = static_cast<double>(picture.total()) * (options.surf.double_size ? 4 : 1);
+  const Traffic bytes = traffic_of(pixels, static_cast<double>(found));
+  const auto times_of_memory = [&](double ms, double moved) {
+    return ms * 1e6 * bandwidth / moved;
+  };
+  std::printf(" | %4.1f %4.1f %4.1f %4.1f\n", times_of_memory(integral, bytes.integral),
+              times_of_memory(hessian, bytes.hessian),
+              times_of_memory(orientation, bytes.orientation),
+              times_of_memory(descriptor, bytes.descriptor));
   std::fflush(stdout);
 }
 
@@ -187,16 +214,26 @@ void run(const std::filesystem::path& folder, const std::string& file, int round
   };
   const cv::Size sizes[] = {{640, 480}, {1920, 1080}, {3264, 2448}};
   print_memory(picture_of(sizes[2]));
-  std::printf("memory bandwidth (copy, read + written): %.1f GB/s\n\n", bandwidth_gb());
+  const double bandwidth = bandwidth_gb();
+  std::printf("memory bandwidth (copy, read + written): %.1f GB/s\n\n", bandwidth);
   std::printf(
       "ms, medians of %d turns; ratios: medians of the turns', in brackets of processor time\n"
-      "%-9s %-17s | %7s %7s %8s %7s | %12s  %13s  %4s | %s\n",
+      "%-17s %-17s | %7s %7s %8s %7s | %12s  %13s  %4s | %s | times of the memory's\n",
       rounds, "size", "found/orb/dlib", "surf", "orb", "dlib", "surf x2", "surf/orb", "dlib/surf",
-      "x1/2", "integral hessian selection orientation descriptor");
+      "x1/2", "integral hessian suppression orientation descriptor");
   for (const cv::Size size : sizes) {
     const cv::Mat picture = picture_of(size);
-    for (const int count : {500, 1000, 2000, 5000})
-      compare(picture, count, size.width > 2000 ? std::max(1, rounds / 3) : rounds);
+    std::vector<Case> cases;
+    for (const int count : {500, 1000, 2000, 5000}) {
+      cases.push_back({"", {}});
+      cases.back().options.max_features = count;
+    }
+    if (size.area() < cases[0].options.double_below_px) {
+      cases.push_back({"default", {}});
+      cases.back().options.surf.double_size = true;
+    }
+    for (const Case& of : cases)
+      compare(picture, of, bandwidth, size.width > 2000 ? std::max(1, rounds / 3) : rounds);
   }
 }
 

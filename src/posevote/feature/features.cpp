@@ -50,54 +50,14 @@ void FeatureOptions::describe(OptionList& list) {
 
 std::string FeatureOptions::signature() const {
   if (kind == "sift") return "rootsift128 1";
-  return surf.upright ? "surf64 upright 1" : "surf64 1";
+  return surf.upright ? "surf64 upright 2" : "surf64 2";
 }
-
-namespace {
-
-/// Suits the search to the size of the picture: small ones from one octave lower, where small
-/// objects have too few pixels for the first octave; large ones with a limit in proportion to their
-/// area.
-class SizeAwareExtractor : public Extractor {
- public:
-  using Make = std::shared_ptr<const Extractor> (*)(const FeatureOptions&);
-
-  SizeAwareExtractor(const FeatureOptions& options, Make make)
-      : options_(options), plain_(make(options)) {
-    FeatureOptions doubled = options, unlimited = options;
-    doubled.surf.double_size = true;
-    unlimited.max_features = 0;
-    doubled_ = make(doubled);
-    unlimited_ = make(unlimited);
-  }
-
-  [[nodiscard]] Features extract(const cv::Mat& image, const cv::Mat& mask) const override {
-    if (image.total() < static_cast<std::size_t>(options_.double_below_px))
-      return doubled_->extract(image, mask);
-    constexpr double kLarge = 2e6;  // px
-    const double limit = options_.max_features * static_cast<double>(image.total()) / kLarge;
-    if (!options_.more_in_large || options_.max_features == 0 || limit <= options_.max_features)
-      return plain_->extract(image, mask);
-    Features features = unlimited_->extract(image, mask);
-    if (static_cast<double>(features.size()) > limit) {
-      features.keypoints.resize(static_cast<std::size_t>(limit));
-      features.descriptors = features.descriptors.rowRange(0, static_cast<int>(limit)).clone();
-    }
-    return features;
-  }
-
- private:
-  FeatureOptions options_;
-  std::shared_ptr<const Extractor> plain_, doubled_, unlimited_;
-};
-
-}  // namespace
 
 std::shared_ptr<const Extractor> make_extractor(const FeatureOptions& options) {
   validate_options(options);
   if (options.kind == "sift") return make_sift_extractor(options);
 #if POSEVOTE_WITH_SURF
-  return std::make_shared<SizeAwareExtractor>(options, &make_surf_extractor);
+  return make_surf_extractor(options, true);
 #else
   throw Error(
       ErrorCode::unsupported,

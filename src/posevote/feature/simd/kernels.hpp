@@ -1,6 +1,6 @@
 // The inner loops of SURF. `simd::` picks the best instruction set of the running CPU (AVX-512,
 // AVX2, SSE4, NEON, ... from one source, by Highway); `simd::plain::` is the same in plain loops,
-// and the contract: both give the same numbers (`descriptor` up to rounding).
+// and the contract: both give the same numbers (`descriptor` and `sector_sums` up to rounding).
 #pragma once
 
 #include <cstddef>
@@ -15,23 +15,25 @@ struct SumsView {
   int width, height;  ///< of the picture: sums has one more of each
 };
 
-/// A square of 24 x 24 samples around (x, y), turned and scaled.
+/// Kernels read up to this many numbers past what they need, and write as many past their result.
+inline constexpr int kSlack = 16;
+
+/// One or two filters of the Hessian, each of size 3 * lobe, lobe odd and at most kLargestLobe.
+struct FilterPair {
+  int lobe[2];    ///< px; the second one is 0 when there is no second filter
+  float norm[2];  ///< what each second derivative is multiplied by
+};
+inline constexpr int kLargestLobe = 21;
+
+/// A square of 16 x 16 boxes around (x, y), turned and scaled.
 struct PatchFrame {
   float x, y;          ///< px in the summed picture
-  float cosine, sine;  ///< of the angle, times the distance of two samples in px
-  int side;  ///< px, of the boxes whose means are sampled; at most the picture's own sides
+  float cosine, sine;  ///< of the angle, times the distance of two boxes in px
+  int side;            ///< px, of the boxes; at most the picture's own sides
 };
 
-/// Sums of all boxes of one side, at most 16 px: boxes[y * stride + x] is that of the box whose top
-/// left pixel is (x, y). Null: not made, the sums are looked up instead, with the same result.
-struct BoxesView {
-  const std::uint16_t* boxes = nullptr;
-  std::ptrdiff_t stride = 0;
-};
-
-inline constexpr int kPatchNodes = 25;  ///< corners of the 24 x 24 samples, along one side
+inline constexpr int kPatchNodes = 16;  ///< boxes along one side
 inline constexpr int kDescriptorSize = 64;
-inline constexpr int kMaximaRows = 9;
 
 /// Binomial filter 1 4 6 4 1 (sigma 1 px) both ways, rounded: `rows` are five rows of which the
 /// middle one is filtered; they are read from -2 to count + 1. `scratch` holds count + 36 numbers.
@@ -42,65 +44,66 @@ void smooth_row(const std::uint8_t* const rows[5], int count, std::uint16_t* scr
 void integral_row(const std::uint8_t* pixels, const std::uint32_t* above, int count,
                   std::uint32_t* out);
 
-/// Determinants of the box-filter Hessian of size 3 * lobe at the pixels (x, y) ... (x + count - 1,
-/// y); each second derivative is multiplied by `norm`. Precondition: the filters lie in the
-/// picture.
-void hessian_row(const SumsView& view, int x, int y, int count, int lobe, float norm, float* out);
+/// The larger determinant of the box-filter Hessian of the two filters, at the pixels (x, y) ...
+/// (x + count - 1, y). Precondition: the filters lie in the picture. Reads and writes kSlack more.
+void hessian_row(const SumsView& view, int x, int y, int count, const FilterPair& filters,
+                 float* out);
 
-/// Columns 1 ... count - 2 whose value in rows[4] is at least `threshold` and larger than its 26
-/// neighbours; rows: three layers of three rows each, top row first. Returns how many there are.
-int find_maxima(const float* const rows[kMaximaRows], int count, float threshold, int* columns);
+/// out[3 * j + i]: the determinant at (x + i - 1, y + j - 1) of one filter. Precondition: the
+/// filters lie in the picture. Reads kSlack more.
+void hessian_patch(const SumsView& view, int x, int y, int lobe, float norm, float* out);
 
-/// The 64 numbers described in surf/descriptor.hpp, not yet normalised. `boxes`: of side
-/// frame.side.
-void descriptor(const SumsView& view, const BoxesView& boxes, const PatchFrame& frame, float* out);
+/// Columns 1 ... count - 2 whose value in rows[1] is at least `threshold` and larger than its eight
+/// neighbours', or as large as those above and to the left: of equal ones the last is taken. rows:
+/// the top one first. Returns how many there are.
+int find_peaks(const float* const rows[3], int count, float threshold, int* columns);
 
-/// out[x] = the sum of the box of `side` (at most 16) with the top left pixel (x, y), x < count.
-void box_row(const SumsView& view, int y, int side, int count, std::uint16_t* out);
+/// The 64 numbers described in surf/descriptor.hpp, of length 1.
+void descriptor(const SumsView& view, const PatchFrame& frame, float* out);
 
-/// Haar wavelets at 11 x 11 points, the middle one in the middle: point (i, j) has its corners at
-/// the nodes [j], [j + 2], [j + 4] x [i], [i + 2], [i + 4] of the grid of sums. Columns from 15 on
-/// are padding.
-inline constexpr int kWaveletSide = 11, kWaveletNodes = 15;
+/// Haar wavelets at 8 x 8 points: point (i, j) has its corners at the nodes [j], [j + 2], [j + 4] x
+/// [i], [i + 2], [i + 4] of the grid of sums.
+inline constexpr int kWaveletSide = 8, kWaveletNodes = 12;
 struct WaveletGrid {
-  std::int32_t sums[kWaveletNodes][24];
+  std::int32_t sums[kWaveletNodes][kWaveletNodes];
 };
-/// The points that count, closed ranges within 0 ... 10.
+/// The points that count, closed ranges within 0 ... 7.
 struct WaveletRange {
   int first_row, last_row, first_column, last_column;
 };
 inline constexpr int kAngleBins = 72, kSectorBins = 12;  ///< 5 and 60 degrees
 
-/// x[b], y[b]: the sum of the weighted wavelet responses (dx, dy) of the points within a circle
-/// whose angle lies in the bins b ... b + 11, modulo 72; both have 72 numbers. The angle is a
-/// polynomial of at most 0.002 bins error.
-void sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* x, float* y);
+/// (pairs[2 b], pairs[2 b + 1]): the sum of the weighted wavelet responses (dx, dy) of the points
+/// whose angle lies in the bins b ... b + 11, modulo 72, for all 72. The angle is a polynomial of
+/// at most 0.002 bins error. Returns the b of the longest sum, the first of equals.
+int sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* pairs);
 
 namespace plain {
-void sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* x, float* y);
 void smooth_row(const std::uint8_t* const rows[5], int count, std::uint16_t* scratch,
                 std::uint8_t* out);
 void integral_row(const std::uint8_t* pixels, const std::uint32_t* above, int count,
                   std::uint32_t* out);
-void hessian_row(const SumsView& view, int x, int y, int count, int lobe, float norm, float* out);
-int find_maxima(const float* const rows[kMaximaRows], int count, float threshold, int* columns);
+void hessian_row(const SumsView& view, int x, int y, int count, const FilterPair& filters,
+                 float* out);
+void hessian_patch(const SumsView& view, int x, int y, int lobe, float norm, float* out);
+int find_peaks(const float* const rows[3], int count, float threshold, int* columns);
 void descriptor(const SumsView& view, const PatchFrame& frame, float* out);
-void box_row(const SumsView& view, int y, int side, int count, std::uint16_t* out);
+int sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* pairs);
 }  // namespace plain
 
-/// Weights of the descriptor: a square of 9 x 9 samples has the taps w[i] * w[j] (sigma 2.5), the
-/// square (row, column) of the 4 x 4 the weight v[row] * v[column] (sigma 1.5 squares).
+/// Weights of the descriptor: a square of 6 x 6 samples has the taps w[i] * w[j] (sigma 1.5
+/// samples), the square (row, column) of the 4 x 4 the weight v[row] * v[column] (sigma 1.5
+/// squares). A square begins three samples after the one before.
+inline constexpr int kSquareTaps = 6, kSquareStep = 3;
 struct DescriptorWeights {
-  float taps[9];
+  float taps[kSquareTaps];
   float squares[4];
 };
 [[nodiscard]] const DescriptorWeights& descriptor_weights();
 
-/// Gaussian of sigma 2.5 points, 0 outside the circle of radius 6; rows have 16 columns. Row j has
-/// its points within `reach[j]` columns of the middle.
+/// Gaussian of sigma 2 points around the middle of the 8 x 8.
 struct WaveletWeights {
-  float at[kWaveletSide][16];
-  int reach[kWaveletSide];
+  float at[kWaveletSide][kWaveletSide];
 };
 [[nodiscard]] const WaveletWeights& wavelet_weights();
 

@@ -24,7 +24,7 @@ class Kernels : public testing::TestWithParam<std::int64_t> {
   static constexpr int kWidth = 151, kHeight = 133;
   cv::Mat grey = made::texture(kWidth, kHeight);
   std::vector<std::uint32_t> sums = [this] {
-    std::vector<std::uint32_t> made((kWidth + 1) * (kHeight + 1));
+    std::vector<std::uint32_t> made((kWidth + 1) * (kHeight + 1) + kSlack);
     for (int y = 0; y < kHeight; ++y)
       plain::integral_row(grey.ptr(y), &made[y * (kWidth + 1) + 1], kWidth,
                           &made[(y + 1) * (kWidth + 1) + 1]);
@@ -65,79 +65,90 @@ TEST_P(Kernels, IntegralRowIsThePlainOneAndWrapsAround) {
 }
 
 TEST_P(Kernels, HessianRowIsThePlainOneBitForBit) {
-  for (const int lobe : {3, 5, 7, 9, 13, 33})
+  for (const auto& [first, second] :
+       {std::pair{5, 7}, {3, 0}, {5, 0}, {9, 11}, {7, 5}, {kLargestLobe, 0}})
     for (const int count : {0, 1, 7, 8, 9, 31, 50}) {
-      std::vector<float> expected(count + 1, 9), found(count + 1, 9);
-      const float norm = 1.0F / static_cast<float>(lobe * lobe);
-      plain::hessian_row(view, 50, 60, count, lobe, norm, expected.data());
-      hessian_row(view, 50, 60, count, lobe, norm, found.data());
-      ASSERT_EQ(found, expected) << lobe << " " << count;
+      std::vector<float> expected(count + kSlack), found(count + kSlack);
+      const auto norm = [](int lobe) { return 1.0F / static_cast<float>(lobe * lobe); };
+      const FilterPair filters{{first, second}, {norm(first), second ? norm(second) : 0}};
+      plain::hessian_row(view, 50, 60, count, filters, expected.data());
+      hessian_row(view, 50, 60, count, filters, found.data());
+      found.resize(count);
+      expected.resize(count);
+      ASSERT_EQ(found, expected) << first << " " << second << " " << count;
     }
 }
 
-TEST_P(Kernels, FindMaximaIsThePlainOneAlsoWithEqualValues) {
+TEST_P(Kernels, HessianRowIsThePlainOneOverSeveralTiles) {
+  const cv::Mat wide = made::texture(1300, 40);
+  std::vector<std::uint32_t> made(1301 * 41 + kSlack);
+  for (int y = 0; y < 40; ++y)
+    plain::integral_row(wide.ptr(y), &made[y * 1301 + 1], 1300, &made[(y + 1) * 1301 + 1]);
+  const SumsView sums_of_wide{made.data(), 1301, 1300, 40};
+  for (const int count : {512, 513, 1025, 1270}) {
+    const FilterPair filters{{5, 7}, {0.04F, 0.02F}};
+    std::vector<float> expected(count + kSlack), found(count + kSlack);
+    plain::hessian_row(sums_of_wide, 12, 20, count, filters, expected.data());
+    hessian_row(sums_of_wide, 12, 20, count, filters, found.data());
+    found.resize(count);
+    expected.resize(count);
+    ASSERT_EQ(found, expected) << count;
+  }
+}
+
+TEST_P(Kernels, HessianPatchIsThePlainOneUpToTheCorners) {
+  for (const int lobe : {3, 5, 9, kLargestLobe}) {
+    const int reach = lobe + lobe / 2 + 1;
+    for (const auto& [x, y] :
+         {std::pair{reach, reach}, {70, 60}, {kWidth - 1 - reach, kHeight - 1 - reach}}) {
+      std::vector<float> expected(9), found(9);
+      plain::hessian_patch(view, x, y, lobe, 0.01F, expected.data());
+      hessian_patch(view, x, y, lobe, 0.01F, found.data());
+      ASSERT_EQ(found, expected) << lobe << " " << x;
+    }
+  }
+}
+
+TEST_P(Kernels, FindPeaksIsThePlainOneAlsoWithEqualValues) {
   cv::RNG random(3);
+  int peaks = 0;
   for (int round = 0; round < 200; ++round) {
     const int count = random.uniform(0, 70);
-    std::vector<std::vector<float>> values(kMaximaRows, std::vector<float>(count + 1));
-    const float* rows[kMaximaRows];
-    for (int r = 0; r < kMaximaRows; ++r) {
+    std::vector<std::vector<float>> values(3, std::vector<float>(count + 1));
+    const float* rows[3];
+    for (int r = 0; r < 3; ++r) {
       for (float& value : values[r]) value = static_cast<float>(random.uniform(0, 20));
       rows[r] = values[r].data();
     }
-    for (int i = 2; i < count - 2; i += 5) values[4][i] = 25;
     std::vector<int> expected(count + 1), found(count + 1);
-    const int many = plain::find_maxima(rows, count, 18, expected.data());
-    ASSERT_EQ(find_maxima(rows, count, 18, found.data()), many);
+    const int many = plain::find_peaks(rows, count, 18, expected.data());
+    ASSERT_EQ(find_peaks(rows, count, 18, found.data()), many);
     ASSERT_EQ(found, expected);
+    peaks += many;
   }
+  EXPECT_GT(peaks, 20);
 }
 
 TEST_P(Kernels, DescriptorIsThePlainOneInsideAndAcrossTheBorder) {
-  for (const auto& [x, y] : {std::pair{75.3F, 60.8F}, {0.0F, 0.0F}, {150.2F, 131.9F}})
+  for (const auto& [x, y] :
+       {std::pair{75.3F, 60.8F}, {0.0F, 0.0F}, {150.2F, 131.9F}, {-900.0F, 5.0F}})
     for (const float angle : {0.0F, 0.6F, 2.5F, -1.9F})
-      for (const float scale : {1.0F, 1.7F, 4.2F, 30.0F}) {
-        const PatchFrame frame{x, y, scale * std::cos(angle), scale * std::sin(angle),
-                               static_cast<int>(scale + 0.5F)};
+      for (const float spacing : {0.2F, 1.7F, 4.2F, 30.0F}) {
+        const PatchFrame frame{x, y, spacing * std::cos(angle), spacing * std::sin(angle),
+                               std::max(1, static_cast<int>(spacing + 0.5F))};
         float expected[kDescriptorSize], found[kDescriptorSize];
         plain::descriptor(view, frame, expected);
-        descriptor(view, {}, frame, found);
-        float largest = 1;
-        for (const float value : expected) largest = std::max(largest, std::abs(value));
-        for (int i = 0; i < kDescriptorSize; ++i)
-          ASSERT_NEAR(found[i] / largest, expected[i] / largest, 2e-5) << i;
+        descriptor(view, frame, found);
+        for (int i = 0; i < kDescriptorSize; ++i) ASSERT_NEAR(found[i], expected[i], 1e-5) << i;
+        ASSERT_NEAR(cv::norm(cv::Mat(1, kDescriptorSize, CV_32F, found)), 1, 1e-5);
       }
 }
 
-TEST_P(Kernels, BoxRowIsThePlainOneUpToTheLargestSum) {
-  std::vector<std::uint32_t> white(sums.size());
-  for (int y = 0; y <= kHeight; ++y)
-    for (int x = 0; x <= kWidth; ++x)
-      white[y * (kWidth + 1) + x] = static_cast<std::uint32_t>(255 * x * y);
-  for (const SumsView& picture : {view, SumsView{white.data(), view.stride, kWidth, kHeight}})
-    for (const int side : {1, 2, 5, 16})
-      for (const int count : {0, 1, 9, 64, kWidth - side + 1}) {
-        std::vector<std::uint16_t> expected(count + 1), found(count + 1);
-        plain::box_row(picture, 20, side, count, expected.data());
-        box_row(picture, 20, side, count, found.data());
-        ASSERT_EQ(found, expected) << side << " " << count;
-      }
-}
-
-TEST_P(Kernels, DescriptorFromBoxesIsTheSameBitForBit) {
-  for (const int side : {1, 2, 7, 16}) {
-    std::vector<std::uint16_t> boxes(view.stride * kHeight);
-    for (int y = 0; y + side <= kHeight; ++y)
-      box_row(view, y, side, kWidth - side + 1, &boxes[y * view.stride]);
-    for (const auto& [x, y] : {std::pair{75.3F, 60.8F}, {150.9F, 132.9F}}) {
-      const auto scale = static_cast<float>(side);
-      const PatchFrame frame{x, y, scale * 0.8F, scale * 0.6F, side};
-      float expected[kDescriptorSize], found[kDescriptorSize];
-      descriptor(view, {}, frame, expected);
-      descriptor(view, {boxes.data(), view.stride}, frame, found);
-      for (int i = 0; i < kDescriptorSize; ++i) ASSERT_EQ(found[i], expected[i]);
-    }
-  }
+TEST_P(Kernels, DescriptorOfAFlatPictureHasEqualNumbers) {
+  const std::vector<std::uint32_t> nothing(sums.size());
+  float found[kDescriptorSize];
+  descriptor({nothing.data(), view.stride, kWidth, kHeight}, {70, 60, 2, 1, 2}, found);
+  for (const float value : found) EXPECT_EQ(value, 0.125F);
 }
 
 TEST_P(Kernels, SectorSumsAreThePlainOnes) {
@@ -145,16 +156,23 @@ TEST_P(Kernels, SectorSumsAreThePlainOnes) {
   for (int round = 0; round < 50; ++round) {
     WaveletGrid grid{};
     for (auto& row : grid.sums)
-      for (int i = 0; i < kWaveletNodes; ++i) row[i] = random.uniform(-100000, 100000);
-    const WaveletRange range = round % 2 ? WaveletRange{0, 10, 0, 10}
-                                         : WaveletRange{random.uniform(0, 6), random.uniform(5, 11),
-                                                        random.uniform(0, 12), 10};
-    float expected[2][kAngleBins], found[2][kAngleBins];
-    plain::sector_sums(grid, range, expected[0], expected[1]);
-    sector_sums(grid, range, found[0], found[1]);
-    for (int i = 0; i < kAngleBins; ++i)
-      for (int k = 0; k < 2; ++k) ASSERT_NEAR(found[k][i], expected[k][i], 2) << i;  // of 1e5
+      for (std::int32_t& sum : row) sum = random.uniform(-100000, 100000);
+    const WaveletRange range = round % 2 ? WaveletRange{0, 7, 0, 7}
+                                         : WaveletRange{random.uniform(0, 5), random.uniform(4, 8),
+                                                        random.uniform(0, 9), 7};
+    float expected[2 * kAngleBins], found[2 * kAngleBins];
+    plain::sector_sums(grid, range, expected);
+    const int longest = sector_sums(grid, range, found);
+    for (int i = 0; i < 2 * kAngleBins; ++i) ASSERT_NEAR(found[i], expected[i], 2) << i;  // of 1e5
+    const auto length = [&](int b) { return std::hypot(found[2 * b], found[2 * b + 1]); };
+    for (int b = 0; b < kAngleBins; ++b) EXPECT_LE(length(b), length(longest) * 1.000001);
   }
+}
+
+TEST_P(Kernels, SectorSumsOfNothingAreZero) {
+  float pairs[2 * kAngleBins];
+  EXPECT_EQ(sector_sums(WaveletGrid{}, {0, 7, 0, 7}, pairs), 0);
+  for (const float value : pairs) EXPECT_EQ(value, 0);
 }
 
 TEST_P(Kernels, SectorSumsOfARampPointUpTheRamp) {
@@ -165,13 +183,13 @@ TEST_P(Kernels, SectorSumsOfARampPointUpTheRamp) {
       for (int x = 0; x < kWaveletNodes; ++x)
         grid.sums[y][x] =
             static_cast<std::int32_t>(std::lround(1e4 * (c * x * x * y + s * y * y * x)));
-    float x[kAngleBins], y[kAngleBins];
-    sector_sums(grid, {0, 10, 0, 10}, x, y);
+    float pairs[2 * kAngleBins];
+    sector_sums(grid, {0, 7, 0, 7}, pairs);
     const int bin = static_cast<int>(degrees / 5);
-    EXPECT_GT(x[bin] * c + y[bin] * s, 0);
-    EXPECT_NEAR(std::atan2(x[bin] * s - y[bin] * c, x[bin] * c + y[bin] * s), 0, 1e-3);
-    EXPECT_EQ(x[(bin + 1) % kAngleBins], 0);
-    EXPECT_EQ(y[(bin + 1) % kAngleBins], 0);
+    const float x = pairs[2 * bin], y = pairs[2 * bin + 1];
+    EXPECT_GT(x * c + y * s, 0);
+    EXPECT_NEAR(std::atan2(x * s - y * c, x * c + y * s), 0, 1e-3);
+    for (int k = 0; k < 2; ++k) EXPECT_EQ(pairs[2 * ((bin + 1) % kAngleBins) + k], 0);
   }
 }
 

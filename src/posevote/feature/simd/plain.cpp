@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "posevote/feature/simd/kernels.hpp"
@@ -9,10 +8,9 @@ namespace posevote::simd {
 const DescriptorWeights& descriptor_weights() {
   static const DescriptorWeights weights = [] {
     DescriptorWeights made{};
-    for (int i = 0; i < 9; ++i)
-      made.taps[i] = static_cast<float>(std::exp(-(i - 4) * (i - 4) / (2 * 2.5 * 2.5)));
-    for (int i = 0; i < 4; ++i)
-      made.squares[i] = static_cast<float>(std::exp(-(i - 1.5) * (i - 1.5) / (2 * 1.5 * 1.5)));
+    const auto gauss = [](double off) { return std::exp(-off * off / (2 * 1.5 * 1.5)); };
+    for (int i = 0; i < kSquareTaps; ++i) made.taps[i] = static_cast<float>(gauss(i - 2.5));
+    for (int i = 0; i < 4; ++i) made.squares[i] = static_cast<float>(gauss(i - 1.5));
     return made;
   }();
   return weights;
@@ -21,13 +19,10 @@ const DescriptorWeights& descriptor_weights() {
 const WaveletWeights& wavelet_weights() {
   static const WaveletWeights weights = [] {
     WaveletWeights made{};
-    constexpr int kMiddle = kWaveletSide / 2;
-    for (int j = -kMiddle; j <= kMiddle; ++j)
-      for (int i = -kMiddle; i <= kMiddle; ++i) {
-        if (i * i + j * j >= 36) continue;
-        made.at[j + kMiddle][i + kMiddle] =
-            static_cast<float>(std::exp(-(i * i + j * j) / (2 * 2.5 * 2.5)));
-        made.reach[j + kMiddle] = std::max(made.reach[j + kMiddle], i);
+    for (int j = 0; j < kWaveletSide; ++j)
+      for (int i = 0; i < kWaveletSide; ++i) {
+        const double x = i - 3.5, y = j - 3.5;
+        made.at[j][i] = static_cast<float>(std::exp(-(x * x + y * y) / (2 * 2.0 * 2.0)));
       }
     return made;
   }();
@@ -54,6 +49,20 @@ std::int32_t box(const SumsView& view, int x0, int y0, int x1, int y1) {
   return static_cast<std::int32_t>(bottom[x1 + 1] - bottom[x0] - top[x1 + 1] + top[x0]);
 }
 
+float determinant(const SumsView& view, int x, int y, int lobe, float norm) {
+  const int half = lobe + lobe / 2, middle = lobe / 2, wide = lobe - 1;
+  const std::int32_t xx = box(view, x - half, y - wide, x + half, y + wide) -
+                          3 * box(view, x - middle, y - wide, x + middle, y + wide);
+  const std::int32_t yy = box(view, x - wide, y - half, x + wide, y + half) -
+                          3 * box(view, x - wide, y - middle, x + wide, y + middle);
+  const std::int32_t xy =
+      box(view, x - lobe, y - lobe, x - 1, y - 1) + box(view, x + 1, y + 1, x + lobe, y + lobe) -
+      box(view, x + 1, y - lobe, x + lobe, y - 1) - box(view, x - lobe, y + 1, x - 1, y + lobe);
+  const float fxx = static_cast<float>(xx) * norm, fyy = static_cast<float>(yy) * norm;
+  const float fxy = static_cast<float>(xy) * norm;
+  return fxx * fyy - fxy * fxy * 0.81F;
+}
+
 }  // namespace
 
 void smooth_row(const std::uint8_t* const rows[5], int count, std::uint16_t* scratch,
@@ -76,54 +85,54 @@ void integral_row(const std::uint8_t* pixels, const std::uint32_t* above, int co
   }
 }
 
-void hessian_row(const SumsView& view, int x, int y, int count, int lobe, float norm, float* out) {
-  const int half = lobe + lobe / 2, middle = lobe / 2, wide = lobe - 1;
-  for (int i = 0; i < count; ++i, ++x) {
-    const std::int32_t xx = box(view, x - half, y - wide, x + half, y + wide) -
-                            3 * box(view, x - middle, y - wide, x + middle, y + wide);
-    const std::int32_t yy = box(view, x - wide, y - half, x + wide, y + half) -
-                            3 * box(view, x - wide, y - middle, x + wide, y + middle);
-    const std::int32_t xy =
-        box(view, x - lobe, y - lobe, x - 1, y - 1) + box(view, x + 1, y + 1, x + lobe, y + lobe) -
-        box(view, x + 1, y - lobe, x + lobe, y - 1) - box(view, x - lobe, y + 1, x - 1, y + lobe);
-    const float fxx = static_cast<float>(xx) * norm, fyy = static_cast<float>(yy) * norm;
-    const float fxy = static_cast<float>(xy) * norm;
-    out[i] = fxx * fyy - fxy * fxy * 0.81F;
+void hessian_row(const SumsView& view, int x, int y, int count, const FilterPair& filters,
+                 float* out) {
+  for (int i = 0; i < count; ++i) {
+    out[i] = determinant(view, x + i, y, filters.lobe[0], filters.norm[0]);
+    if (filters.lobe[1] > 0)
+      out[i] = std::max(out[i], determinant(view, x + i, y, filters.lobe[1], filters.norm[1]));
   }
 }
 
-int find_maxima(const float* const rows[kMaximaRows], int count, float threshold, int* columns) {
+void hessian_patch(const SumsView& view, int x, int y, int lobe, float norm, float* out) {
+  for (int k = 0; k < 9; ++k) out[k] = determinant(view, x + k % 3 - 1, y + k / 3 - 1, lobe, norm);
+}
+
+int find_peaks(const float* const rows[3], int count, float threshold, int* columns) {
   int found = 0;
   for (int x = 1; x + 1 < count; ++x) {
-    const float centre = rows[4][x];
-    bool is_maximum = centre >= threshold;
-    for (int row = 0; row < kMaximaRows && is_maximum; ++row)
-      for (int i = x - 1; i <= x + 1; ++i)
-        if ((row != 4 || i != x) && rows[row][i] >= centre) is_maximum = false;
-    if (is_maximum) columns[found++] = x;
+    const float centre = rows[1][x];
+    bool is_peak = centre >= threshold;
+    for (int k = 0; k < 9 && is_peak; ++k) {
+      const float other = rows[k / 3][x + k % 3 - 1];
+      if (k < 4 ? other > centre : k > 4 && other >= centre) is_peak = false;
+    }
+    if (is_peak) columns[found++] = x;
   }
   return found;
 }
 
 void descriptor(const SumsView& view, const PatchFrame& frame, float* out) {
-  std::array<std::array<float, kPatchNodes>, kPatchNodes> patch;
+  float patch[kPatchNodes][kPatchNodes];
   const float shift = static_cast<float>(frame.side - 1) / 2;
+  constexpr float kMiddle = (kPatchNodes - 1) / 2.0F;
   for (int j = 0; j < kPatchNodes; ++j)
     for (int i = 0; i < kPatchNodes; ++i) {
-      const auto u = static_cast<float>(i - 12), v = static_cast<float>(j - 12);
-      const float x = frame.x - shift + (u * frame.cosine - v * frame.sine);
-      const float y = frame.y - shift + (u * frame.sine + v * frame.cosine);
+      const float u = static_cast<float>(i) - kMiddle, v = static_cast<float>(j) - kMiddle;
+      const float x = frame.x - shift - v * frame.sine + u * frame.cosine;
+      const float y = frame.y - shift + v * frame.cosine + u * frame.sine;
       const int x0 = std::clamp(static_cast<int>(std::lrint(x)), 0, view.width - frame.side);
       const int y0 = std::clamp(static_cast<int>(std::lrint(y)), 0, view.height - frame.side);
       patch[j][i] = static_cast<float>(box(view, x0, y0, x0 + frame.side - 1, y0 + frame.side - 1));
     }
   const DescriptorWeights& weights = descriptor_weights();
+  float squares = 0;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) {
       float sums[4] = {};
-      for (int b = 0; b < 9; ++b)
-        for (int a = 0; a < 9; ++a) {
-          const int j = 5 * row + b, i = 5 * column + a;
+      for (int b = 0; b < kSquareTaps; ++b)
+        for (int a = 0; a < kSquareTaps; ++a) {
+          const int j = kSquareStep * row + b, i = kSquareStep * column + a;
           const float weight = weights.taps[a] * weights.taps[b];
           const float dx =
               weight * (patch[j][i + 1] + patch[j + 1][i + 1] - patch[j][i] - patch[j + 1][i]);
@@ -134,38 +143,46 @@ void descriptor(const SumsView& view, const PatchFrame& frame, float* out) {
           sums[2] += std::abs(dx);
           sums[3] += std::abs(dy);
         }
-      for (int k = 0; k < 4; ++k)
-        out[(row * 4 + column) * 4 + k] = sums[k] * weights.squares[row] * weights.squares[column];
+      for (int k = 0; k < 4; ++k) {
+        const float value = sums[k] * weights.squares[row] * weights.squares[column];
+        out[(row * 4 + column) * 4 + k] = value;
+        squares += value * value;
+      }
     }
+  for (int i = 0; i < kDescriptorSize; ++i)
+    out[i] = squares > 0 ? out[i] / std::sqrt(squares) : 0.125F;
 }
 
-void box_row(const SumsView& view, int y, int side, int count, std::uint16_t* out) {
-  for (int x = 0; x < count; ++x)
-    out[x] = static_cast<std::uint16_t>(box(view, x, y, x + side - 1, y + side - 1));
-}
-
-void sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* x, float* y) {
-  float bin_x[kAngleBins] = {}, bin_y[kAngleBins] = {};
+int sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* pairs) {
+  float bins[kAngleBins][2] = {};
   for (int j = range.first_row; j <= range.last_row; ++j)
     for (int i = range.first_column; i <= range.last_column; ++i) {
       const float weight = wavelet_weights().at[j][i];
-      if (weight == 0) continue;
       const auto box = [&](int y0, int x0, int y1, int x1) {
         return grid.sums[j + y1][i + x1] - grid.sums[j + y1][i + x0] - grid.sums[j + y0][i + x1] +
                grid.sums[j + y0][i + x0];
       };
       const float dx = static_cast<float>(box(0, 2, 4, 4) - box(0, 0, 4, 2)) * weight;
       const float dy = static_cast<float>(box(2, 0, 4, 4) - box(0, 0, 2, 4)) * weight;
-      bin_x[angle_bin(dx, dy)] += dx;
-      bin_y[angle_bin(dx, dy)] += dy;
+      bins[angle_bin(dx, dy)][0] += dx;
+      bins[angle_bin(dx, dy)][1] += dy;
     }
+  int longest = 0;
+  float most = -1;
   for (int bin = 0; bin < kAngleBins; ++bin) {
-    x[bin] = y[bin] = 0;
+    float x = 0, y = 0;
     for (int k = bin; k < bin + kSectorBins; ++k) {
-      x[bin] += bin_x[k % kAngleBins];
-      y[bin] += bin_y[k % kAngleBins];
+      x += bins[k % kAngleBins][0];
+      y += bins[k % kAngleBins][1];
+    }
+    pairs[2 * bin] = x;
+    pairs[2 * bin + 1] = y;
+    if (x * x + y * y > most) {
+      most = x * x + y * y;
+      longest = bin;
     }
   }
+  return longest;
 }
 
 }  // namespace plain

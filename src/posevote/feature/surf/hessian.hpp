@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "posevote/feature/features.hpp"
@@ -11,10 +12,14 @@
 
 namespace posevote::surf {
 
-/// Side of the box filter of a layer, px: 9, 15, 21, 27, ... in octave 0; 15, 27, 39, ... in
-/// octave 1.
+/// Octave k searches level k of the integral with the filters of octave 0: of side 9, 15, 21, 27,
+/// ... pixels of the level.
+[[nodiscard]] constexpr int lobe_of(int layer) {
+  return 2 * layer + 3;
+}
+/// Side of the box filter of a layer, px of the picture.
 [[nodiscard]] constexpr int filter_size(int octave, int layer) {
-  return 3 * ((2 << octave) * (layer + 1) + 1);
+  return 3 * lobe_of(layer) << octave;
 }
 /// Standard deviation of the Gaussian that a box filter stands for, px.
 [[nodiscard]] constexpr float scale_of_filter(float size) {
@@ -28,56 +33,56 @@ namespace posevote::surf {
   return 81.0F / 15 / static_cast<float>(size * size);
 }
 
-/// A pixel that is larger than its 26 neighbours in an octave.
+/// A place where the larger determinant of two layers (a pair: 1 and 2, 3 and 4, ...) is larger
+/// than at its eight neighbours; of equal neighbours the last one, so that a blob halfway between
+/// two samples is found.
+struct Peak {
+  float response = 0;
+  std::int16_t octave = 0, layer = 0;  ///< the lower one of the pair
+  int x = 0, y = 0;                    ///< px of the octave's level, with margin
+};
+
+/// A place and layer where the determinant is larger than its 26 neighbours'.
 struct Candidate {
   int octave = 0, layer = 0;
-  int x = 0, y = 0;  ///< px of the picture (without margin), multiples of the octave's step
-  std::array<std::array<std::array<float, 3>, 3>, 3> around{};  ///< [layer][y][x], steps apart
+  int x = 0, y = 0;  ///< px of the octave's level, with margin
+  std::array<std::array<std::array<float, 3>, 3>, 3> around{};  ///< [layer][y][x]
   [[nodiscard]] float response() const { return around[1][1][1]; }
 };
 
-/// The search over all octaves; keeps its buffers between pictures.
+/// The search over all octaves; keeps its buffers between pictures. Only the layers in which key
+/// points are looked for are filled; those above and below are computed where a peak is examined.
 class BlobSearch {
  public:
+  /// `integral` must have a level for each octave.
   void prepare(const Integral& integral, const SurfOptions& options, int team_size);
-  /// Each member of a team calls this once; returns its share of the candidates of at least the
-  /// threshold. The union is the same for any team; the order is not.
-  const std::vector<Candidate>& search(const Member& member);
+  /// Each member of a team calls this once; then all peaks of at least the threshold are found.
+  void search(const Member& member);
+  /// Appends all peaks by octave, pair, y, x: the same order for any team.
+  void collect(std::vector<Peak>& peaks) const;
 
  private:
-  // Every second row and column of a layer, which is a layer of the next octave too.
-  struct Kept {
-    int size = 0, stride = 0;
-    std::vector<float> values;
-  };
   struct Part {
-    std::vector<float> ring;  // three rows of every layer
-    std::vector<float> full;  // one row at every pixel
+    std::vector<float> ring;  // three rows
     std::vector<int> columns;
-    std::vector<Candidate> candidates;
+    std::vector<Peak> peaks;
+    std::vector<std::size_t> ends;  // of the peaks of each octave and pair
   };
 
-  void prepare_kept();
-  void search_octave(int octave, const Member& member, Part& part);
-  void fill_row(int octave, int layer, int j, Part& part, float* row) const;
-  void keep_row(int octave, int layer, int j, const float* row);
-  void find_in_row(int octave, int j, Part& part) const;
-  [[nodiscard]] float* ring_row(Part& part, int layer, int j) const;
-  [[nodiscard]] int samples(int total, int octave) const { return ((total - 1) >> octave) + 1; }
-  [[nodiscard]] int columns_of(int octave) const { return samples(width_, octave); }
-  [[nodiscard]] int rows_of(int octave) const { return samples(height_, octave); }
-  [[nodiscard]] int border(int octave, int layer) const;
+  void search_pair(int octave, int layer, const Member& member, Part& part) const;
 
   const Integral* integral_ = nullptr;
   SurfOptions options_;
-  int width_ = 0, height_ = 0;  // of the picture, without margin
-  int ring_stride_ = 0;
-  std::vector<std::vector<Kept>> kept_;  // of each octave, what the one before has computed
+  int stride_ = 0;  // of a ring's rows
   std::vector<Part> parts_;
 };
 
+/// The layer and the 27 values of a peak; nothing when a neighbour is larger.
+[[nodiscard]] std::optional<Candidate> examine(const Peak& peak, const Integral& integral,
+                                               const SurfOptions& options);
+
 /// The key point of a candidate: place and scale of the maximum of the quadric through the 27
-/// values (Brown and Lowe 2002), angle 0. False when the maximum lies a whole step or more away.
-[[nodiscard]] bool refine(const Candidate& candidate, const Integral& integral, Keypoint& keypoint);
+/// values (Brown and Lowe 2002), angle 0. Nothing when the maximum lies a whole step or more away.
+[[nodiscard]] std::optional<Keypoint> refine(const Candidate& candidate, const Integral& integral);
 
 }  // namespace posevote::surf

@@ -27,8 +27,9 @@ Weights weights_at(int size, int u, int v) {
 
 Integral integral_of(const cv::Mat& grey, bool smooth = false, int team_size = 1) {
   Integral integral;
-  integral.prepare(grey, smooth, team_size);
-  run_team(team_size, [&](const Member& member) { integral.compute(member); });
+  Team team;
+  integral.prepare(grey, smooth, 4, team_size);
+  team.run(team_size, [&](const Member& member) { integral.compute(member); });
   return integral;
 }
 
@@ -73,13 +74,34 @@ TEST(Integral, SmoothsByTheBinomialFilter) {
   }
 }
 
-TEST(Integral, IsTheSameForAnyTeam) {
-  const cv::Mat grey = made::texture(70, 50);
+TEST(Integral, IsTheSameForAnyTeamAndAtEveryLevel) {
+  const cv::Mat grey = made::texture(71, 53);
   const Integral alone = integral_of(grey, true, 1);
-  for (const int team : {2, 3, 7, 64}) {
+  for (const int team : {1, 2, 3, 7, 64}) {
     const Integral shared = integral_of(grey, true, team);
-    for (int y = 0; y <= alone.height(); ++y)
-      for (int x = 0; x <= alone.width(); ++x) ASSERT_EQ(shared.at(y, x), alone.at(y, x));
+    for (int level = 0; level < 4; ++level) {
+      const simd::SumsView view = shared.view(level);
+      ASSERT_EQ(view.width, alone.width() >> level);
+      ASSERT_EQ(view.height, alone.height() >> level);
+      for (int y = 0; y <= view.height; ++y)
+        for (int x = 0; x <= view.width; ++x)
+          ASSERT_EQ(view.sums[y * view.stride + x], alone.at(y << level, x << level)) << level;
+    }
+  }
+}
+
+TEST(Integral, KeepsNothingOfALargerPictureBefore) {
+  Integral integral;
+  for (const cv::Size size : {cv::Size(90, 80), cv::Size(20, 30), cv::Size(1, 1)}) {
+    const cv::Mat grey = made::texture(size.width, size.height);
+    integral.prepare(grey, true, 3, 1);
+    integral.compute(Member(0, 1, nullptr));
+    const Integral fresh = integral_of(grey, true);
+    for (int level = 0; level < 3; ++level)
+      for (int y = 0; y <= fresh.view(level).height; ++y)
+        for (int x = 0; x <= fresh.view(level).width; ++x)
+          ASSERT_EQ(integral.view(level).sums[y * integral.view(level).stride + x],
+                    fresh.view(level).sums[y * fresh.view(level).stride + x]);
   }
 }
 
@@ -98,53 +120,58 @@ float determinant_at(const cv::Mat& extended, int size, int x, int y) {
   return static_cast<float>((xx * yy - 0.81 * xy * xy) * norm * norm);
 }
 
-TEST(HessianRow, IsTheWeightedSumOfItsDefinition) {
+TEST(HessianPatch, IsTheWeightedSumOfItsDefinition) {
   const cv::Mat grey = made::texture(80, 70), extended = with_margin(grey);
   const Integral integral = integral_of(grey);
   for (const int size : {9, 15, 21, 27, 39, 51})
     for (const cv::Point at : {cv::Point(40, 35), cv::Point(0, 0), cv::Point(79, 69)}) {
-      float found = 0;
-      simd::hessian_row(integral.view(), at.x + kMargin, at.y + kMargin, 1, size / 3,
-                        hessian_norm(size), &found);
+      float found[9];
+      simd::hessian_patch(integral.view(), at.x + kMargin, at.y + kMargin, size / 3,
+                          hessian_norm(size), found);
       const float expected = determinant_at(extended, size, at.x, at.y);
-      EXPECT_NEAR(found, expected, 1e-3 + 1e-4 * std::abs(expected)) << size;
+      EXPECT_NEAR(found[4], expected, 1e-3 + 1e-4 * std::abs(expected)) << size;
     }
 }
 
 std::vector<Candidate> search(const cv::Mat& grey, const SurfOptions& options, int team_size = 1) {
   const Integral integral = integral_of(grey, options.smooth);
   BlobSearch blobs;
-  std::vector<std::vector<Candidate>> shares(team_size);
+  Team team;
   blobs.prepare(integral, options, team_size);
-  run_team(team_size, [&](const Member& member) { shares[member.index()] = blobs.search(member); });
+  team.run(team_size, [&](const Member& member) { blobs.search(member); });
+  std::vector<Peak> peaks;
+  blobs.collect(peaks);
   std::vector<Candidate> all;
-  for (const auto& share : shares) all.insert(all.end(), share.begin(), share.end());
+  for (const Peak& peak : peaks)
+    if (const auto candidate = examine(peak, integral, options)) all.push_back(*candidate);
   std::ranges::sort(all, {},
                     [](const Candidate& c) { return std::tuple(c.octave, c.layer, c.y, c.x); });
   return all;
 }
 
-// Every sample of every octave against its 26 neighbours, without strips, rings or reuse.
+// Every sample of every octave against its 26 neighbours, without pairs, rings or peaks.
 std::vector<Candidate> search_plainly(const cv::Mat& grey, const SurfOptions& options) {
   const Integral integral = integral_of(grey, options.smooth);
   std::vector<Candidate> all;
   for (int octave = 0; octave < options.octaves; ++octave)
     for (int layer = 1; layer <= options.layers; ++layer) {
-      const int step = 1 << octave;
-      const int reach = std::max(0, filter_size(octave, layer + 1) / 2 - kMargin) + step;
-      for (int y = 0; y < grey.rows; y += step)
-        for (int x = 0; x < grey.cols; x += step) {
-          if (x < step || y < step || x + step >= grey.cols || y + step >= grey.rows) continue;
-          if (x < reach || y < reach || x + reach >= grey.cols || y + reach >= grey.rows) continue;
+      const simd::SumsView view = integral.view(octave);
+      const int reach = filter_size(0, options.layers + 1) / 2 + 1, step = 1 << octave;
+      const auto lies_inside = [&](int at, int length, int level_length) {
+        const double place = (at + 0.5) * step - 0.5 - kMargin;  // in the picture
+        return place - step >= 0 && place + step <= length - 1 && at >= reach &&
+               at + reach < level_length;
+      };
+      for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+          if (!lies_inside(x, grey.cols, view.width) || !lies_inside(y, grey.rows, view.height))
+            continue;
           Candidate candidate{octave, layer, x, y, {}};
+          for (int k = 0; k < 3; ++k)
+            simd::plain::hessian_patch(view, x, y, lobe_of(layer - 1 + k),
+                                       hessian_norm(filter_size(octave, layer - 1 + k)),
+                                       candidate.around[k][0].data());
           bool is_maximum = true;
-          for (int k = 0; k < 27; ++k) {
-            const int size = filter_size(octave, layer - 1 + k / 9);
-            simd::plain::hessian_row(integral.view(), x + (k % 3 - 1) * step + kMargin,
-                                     y + (k / 3 % 3 - 1) * step + kMargin, 1, size / 3,
-                                     hessian_norm(size),
-                                     &candidate.around[k / 9][k / 3 % 3][k % 3]);
-          }
           for (int k = 0; k < 27; ++k)
             is_maximum &=
                 k == 13 || candidate.around[k / 9][k / 3 % 3][k % 3] < candidate.response();
@@ -165,8 +192,9 @@ void expect_same(const std::vector<Candidate>& found, const std::vector<Candidat
 }
 
 TEST(BlobSearch, FindsWhatThePlainSearchFinds) {
-  for (const cv::Size size : {cv::Size(130, 101), cv::Size(97, 160), cv::Size(20, 30)})
-    for (const int layers : {1, 2, 3}) {
+  for (const cv::Size size :
+       {cv::Size(130, 101), cv::Size(97, 160), cv::Size(20, 30), cv::Size(1, 1)})
+    for (const int layers : {1, 2, 3, 4, 8}) {
       SurfOptions options;
       options.hessian_threshold = 10;
       options.layers = layers;
@@ -185,18 +213,16 @@ TEST(BlobSearch, IsTheSameForAnyTeam) {
 std::vector<Keypoint> find_blobs(const cv::Mat& grey, const SurfOptions& options) {
   const Integral integral = integral_of(grey);
   std::vector<Keypoint> blobs;
-  Keypoint blob;
   for (const Candidate& candidate : search(grey, options))
-    if (refine(candidate, integral, blob)) blobs.push_back(blob);
+    if (const auto blob = refine(candidate, integral)) blobs.push_back(*blob);
   return blobs;
 }
 
-TEST(FilterSize, FollowsThePaper) {
+TEST(FilterSize, IsThePapersInOctave0AndDoublesWithEachOctave) {
   EXPECT_EQ(filter_size(0, 0), 9);
   EXPECT_EQ(filter_size(0, 3), 27);
-  EXPECT_EQ(filter_size(1, 0), 15);
-  EXPECT_EQ(filter_size(1, 3), 51);
-  EXPECT_EQ(filter_size(3, 3), 195);
+  EXPECT_EQ(filter_size(1, 0), 18);
+  EXPECT_EQ(filter_size(3, 3), 216);
   EXPECT_FLOAT_EQ(scale_of_filter(9), 1.2F);
 }
 
@@ -212,8 +238,9 @@ TEST_P(Spot, IsFoundAtItsPlaceScaleAndSign) {
   const Keypoint& best = *std::ranges::max_element(blobs, {}, &Keypoint::response);
   EXPECT_NEAR(best.x, x, 0.1 * sigma);
   EXPECT_NEAR(best.y, y, 0.1 * sigma);
-  // A box filter of nominal scale s answers most to a spot of sigma s / 0.7 (Gaussian: s).
-  EXPECT_NEAR(best.scale / sigma, 0.72, 0.05);
+  // A box filter of nominal scale s answers most to a spot of sigma s / 0.7 (Gaussian: s), more or
+  // less as the steps between the filters go.
+  EXPECT_NEAR(best.scale / sigma, 0.73, 0.06);
   EXPECT_EQ(best.laplacian, dark ? 1 : -1);
 }
 
@@ -235,15 +262,14 @@ TEST(BlobSearch, ThresholdLeavesOutExactlyTheWeaker) {
 
 TEST(Refine, RefusesAMaximumThatLiesElsewhere) {
   const Integral integral = integral_of(made::texture(60, 50));
-  Candidate candidate{0, 1, 30, 25, {}};
+  Candidate candidate{0, 1, 30 + kMargin, 25 + kMargin, {}};
   // A ridge along the diagonal that hardly falls: the quadric's top is 4.5 steps away in x and y.
   for (auto& plane : candidate.around)
     for (auto& row : plane) row = {2.9F, 2.9F, 2.9F};
   candidate.around[1] = {{{2.99F, 2.9F, 2.79F}, {2.9F, 3.0F, 2.99F}, {2.79F, 2.99F, 2.99F}}};
-  Keypoint keypoint;
-  EXPECT_FALSE(refine(candidate, integral, keypoint));
+  EXPECT_FALSE(refine(candidate, integral));
   candidate.around = {};
-  EXPECT_FALSE(refine(candidate, integral, keypoint));  // flat: no maximum at all
+  EXPECT_FALSE(refine(candidate, integral));  // flat: no maximum at all
 }
 
 }  // namespace

@@ -34,19 +34,23 @@ void smooth_whole_row(const cv::Mat& grey, int y, std::uint16_t* scratch, std::u
 
 }  // namespace
 
-void Integral::prepare(const cv::Mat& grey, bool smooth, int team_size) {
+void Integral::prepare(const cv::Mat& grey, bool smooth, int levels, int team_size) {
   grey_ = grey;
   smooth_ = smooth;
-  width_ = grey.cols + 2 * kMargin;
-  height_ = grey.rows + 2 * kMargin;
-  stride_ = padded_stride(width_);
-  pixel_stride_ = width_;
-  pixels_.resize(static_cast<std::size_t>(pixel_stride_) * height_);
-  sums_.resize(static_cast<std::size_t>(stride_) * (height_ + 1));
+  levels_.resize(levels);
+  for (int k = 0; k < levels; ++k) {
+    Level& level = levels_[k];
+    level.width = (grey.cols + 2 * kMargin) >> k;
+    level.height = (grey.rows + 2 * kMargin) >> k;
+    level.stride = padded_stride(level.width);
+    level.sums.resize(static_cast<std::size_t>(level.stride) * (level.height + 1) + simd::kSlack);
+  }
+  pixel_stride_ = team_size > 1 ? width() : 0;
+  pixels_.resize(static_cast<std::size_t>(pixel_stride_) * height() + width());
   parts_.resize(team_size);
   for (Part& part : parts_) {
-    part.columns.resize(width_);
-    part.above.resize(width_);
+    part.columns.resize(width());
+    part.above.resize(width());
     part.scratch.resize(grey.cols + 36);
   }
 }
@@ -63,8 +67,19 @@ void Integral::fill_row(int y, std::uint16_t* scratch) {
   std::memset(inner + grey_.cols, inner[grey_.cols - 1], kMargin);
 }
 
+// The row y of the sums, in every level that has it.
+void Integral::fill_levels(int y) {
+  for (std::size_t k = 1; k < levels_.size() && y % (1 << k) == 0; ++k) {
+    const int at = y >> k;
+    if (at > levels_[k].height) return;
+    const std::uint32_t* finer = levels_[k - 1].row(2 * at);
+    std::uint32_t* row = levels_[k].row(at);
+    for (int x = 0; x <= levels_[k].width; ++x) row[x] = finer[2 * x];
+  }
+}
+
 void Integral::compute(const Member& member) {
-  const int begin = member.begin(height_), end = member.end(height_);
+  const int begin = member.begin(height()), end = member.end(height());
   Part& part = parts_[member.index()];
   const bool alone = member.count() == 1;
   if (!alone) {
@@ -72,22 +87,26 @@ void Integral::compute(const Member& member) {
     for (int y = begin; y < end; ++y) {
       fill_row(y, part.scratch.data());
       const std::uint8_t* row = pixels(y);
-      for (int x = 0; x < width_; ++x) part.columns[x] += row[x];
+      for (int x = 0; x < width(); ++x) part.columns[x] += row[x];
     }
     member.wait();
   }
   std::uint32_t sum = 0;
-  for (int x = 0; x < width_; ++x) {
+  for (int x = 0; x < width(); ++x) {
     for (int k = 0; k < member.index(); ++k) sum += parts_[k].columns[x];
     part.above[x] = sum;
   }
-  if (begin == 0) std::fill_n(sums_.begin(), width_ + 1, 0U);
+  if (begin == 0) {
+    std::fill_n(levels_[0].row(0), width() + 1, 0U);
+    fill_levels(0);
+  }
   const std::uint32_t* above = part.above.data();
   for (int y = begin; y < end; ++y) {
     if (alone) fill_row(y, part.scratch.data());
-    std::uint32_t* row = &sums_[(y + 1) * stride_];
+    std::uint32_t* row = levels_[0].row(y + 1);
     row[0] = 0;
-    simd::integral_row(pixels(y), above, width_, row + 1);
+    simd::integral_row(pixels(y), above, width(), row + 1);
+    fill_levels(y + 1);
     above = row + 1;
   }
   member.wait();

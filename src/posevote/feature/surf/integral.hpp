@@ -17,39 +17,55 @@ inline constexpr int kMargin = 32;
 
 /// at(y, x) is the sum of the pixels in the rows above y and the columns left of x, modulo 2^32:
 /// differences are exact as long as the rectangle's own sum is below 2^32.
+///
+/// Level k > 0 holds the same sums at every 2^k-th row and column only: a picture whose pixels are
+/// the sums of 2^k x 2^k pixels of the summed one. What is left over at the right and below is cut.
 class Integral {
  public:
   /// Makes room; keeps the buffers of earlier pictures. `grey`: CV_8UC1, not empty, may be shared.
-  void prepare(const cv::Mat& grey, bool smooth, int team_size);
+  void prepare(const cv::Mat& grey, bool smooth, int levels, int team_size);
   /// Each member of a team calls this once after one of them has called `prepare`; the sums are
   /// ready when all have returned from it.
   void compute(const Member& member);
 
-  [[nodiscard]] int width() const noexcept { return width_; }    ///< px, with both margins
-  [[nodiscard]] int height() const noexcept { return height_; }  ///< px, with both margins
-  [[nodiscard]] std::uint32_t at(int y, int x) const { return sums_[y * stride_ + x]; }
+  [[nodiscard]] int width() const noexcept { return levels_[0].width; }    ///< px, with margins
+  [[nodiscard]] int height() const noexcept { return levels_[0].height; }  ///< px, with margins
+  [[nodiscard]] std::uint32_t at(int y, int x) const {
+    return levels_[0].sums[y * levels_[0].stride + x];
+  }
   /// Sum of the pixels x0 <= x < x1, y0 <= y < y1. Precondition: 0 <= x0 <= x1 <= width, same for
   /// y.
   [[nodiscard]] std::uint32_t box(int x0, int y0, int x1, int y1) const {
     return at(y1, x1) - at(y1, x0) - at(y0, x1) + at(y0, x0);
   }
-  [[nodiscard]] simd::SumsView view() const { return {sums_.data(), stride_, width_, height_}; }
+  [[nodiscard]] simd::SumsView view(int level = 0) const {
+    const Level& of = levels_[level];
+    return {of.sums.data(), of.stride, of.width, of.height};
+  }
 
  private:
-  void fill_row(int y, std::uint16_t* scratch);
-  [[nodiscard]] std::uint8_t* pixels(int y) { return &pixels_[y * pixel_stride_]; }
-
-  cv::Mat grey_;
-  bool smooth_ = false;
-  int width_ = 0, height_ = 0;
-  std::ptrdiff_t stride_ = 0, pixel_stride_ = 0;
-  std::vector<std::uint8_t> pixels_;
-  std::vector<std::uint32_t> sums_;
+  struct Level {
+    int width = 0, height = 0;  // px of this level, with margins
+    std::ptrdiff_t stride = 0;
+    std::vector<std::uint32_t> sums;
+    [[nodiscard]] std::uint32_t* row(int y) { return &sums[y * stride]; }
+  };
   struct Part {
     std::vector<std::uint32_t> columns;  // sums of the member's rows
     std::vector<std::uint32_t> above;    // the sums above its first row
     std::vector<std::uint16_t> scratch;
   };
+
+  void fill_row(int y, std::uint16_t* scratch);
+  void fill_levels(int y);
+  // A single member needs no more than one row at a time.
+  [[nodiscard]] std::uint8_t* pixels(int y) { return &pixels_[y * pixel_stride_]; }
+
+  cv::Mat grey_;
+  bool smooth_ = false;
+  std::ptrdiff_t pixel_stride_ = 0;
+  std::vector<std::uint8_t> pixels_;
+  std::vector<Level> levels_ = std::vector<Level>(1);
   std::vector<Part> parts_;
 };
 

@@ -7,19 +7,24 @@
 namespace posevote::surf {
 namespace {
 
+constexpr float kSpacing = 1.5F;  // of the points, scales
+
 // Positions past the margin are moved to it.
-simd::WaveletGrid read_grid(const Integral& integral, int x0, int y0, int step) {
+simd::WaveletGrid read_grid(const simd::SumsView& view, int x0, int y0, int step) {
   simd::WaveletGrid grid;
-  int columns[simd::kWaveletNodes];
-  for (int i = 0; i < simd::kWaveletNodes; ++i)
-    columns[i] = std::clamp(x0 + i * step, 0, integral.width());
-  const simd::SumsView view = integral.view();
-  for (int j = 0; j < simd::kWaveletNodes; ++j) {
-    const std::uint32_t* row =
-        view.sums + std::clamp(y0 + j * step, 0, integral.height()) * view.stride;
-    for (int i = 0; i < simd::kWaveletNodes; ++i)
-      grid.sums[j][i] = static_cast<std::int32_t>(row[columns[i]]);
-    std::fill(grid.sums[j] + simd::kWaveletNodes, std::end(grid.sums[j]), 0);
+  constexpr int kLast = simd::kWaveletNodes - 1;
+  if (x0 >= 0 && y0 >= 0 && x0 + kLast * step <= view.width && y0 + kLast * step <= view.height) {
+    const std::uint32_t* at = view.sums + y0 * view.stride + x0;
+    for (auto& row : grid.sums) {
+      for (int i = 0; i <= kLast; ++i) row[i] = static_cast<std::int32_t>(at[i * step]);
+      at += step * view.stride;
+    }
+    return grid;
+  }
+  for (int j = 0; j <= kLast; ++j) {
+    const std::uint32_t* row = view.sums + std::clamp(y0 + j * step, 0, view.height) * view.stride;
+    for (int i = 0; i <= kLast; ++i)
+      grid.sums[j][i] = static_cast<std::int32_t>(row[std::clamp(x0 + i * step, 0, view.width)]);
   }
   return grid;
 }
@@ -27,22 +32,22 @@ simd::WaveletGrid read_grid(const Integral& integral, int x0, int y0, int step) 
 }  // namespace
 
 float orientation(const Integral& integral, const Keypoint& keypoint) {
-  const int step = std::max(1, static_cast<int>(std::lround(keypoint.scale)));
-  constexpr int kMiddle = simd::kWaveletNodes / 2;
-  const int x0 = static_cast<int>(std::lround(keypoint.x)) + kMargin - kMiddle * step;
-  const int y0 = static_cast<int>(std::lround(keypoint.y)) + kMargin - kMiddle * step;
-  const auto first = [&](int origin) { return std::max(0, (step - 1 - origin) / step); };
-  const auto last = [&](int origin, int size) {
-    return std::min(simd::kWaveletSide - 1, (size - origin) / step - 4);
+  const int step = std::max(1, static_cast<int>(std::lround(kSpacing * keypoint.scale)));
+  const auto origin = [&](float centre) {  // of the grid, whose middle is between two nodes
+    const float nodes = static_cast<float>(simd::kWaveletNodes - 1) / 2;
+    return static_cast<int>(std::lround(centre + 0.5F - nodes * static_cast<float>(step))) +
+           kMargin;
   };
-  float x[simd::kAngleBins], y[simd::kAngleBins];
-  simd::sector_sums(read_grid(integral, x0, y0, step),
-                    {first(y0), last(y0, integral.height()), first(x0), last(x0, integral.width())},
-                    x, y);
-  int best = 0;
-  for (int bin = 1; bin < simd::kAngleBins; ++bin)
-    if (x[bin] * x[bin] + y[bin] * y[bin] > x[best] * x[best] + y[best] * y[best]) best = bin;
-  const float angle = std::atan2(y[best], x[best]);
+  const int x0 = origin(keypoint.x), y0 = origin(keypoint.y);
+  const auto first = [&](int at) { return std::max(0, (step - 1 - at) / step); };
+  const auto last = [&](int at, int size) {
+    return std::min(simd::kWaveletSide - 1, (size - at) / step - 4);
+  };
+  float pairs[2 * simd::kAngleBins];
+  const int best = simd::sector_sums(
+      read_grid(integral.view(), x0, y0, step),
+      {first(y0), last(y0, integral.height()), first(x0), last(x0, integral.width())}, pairs);
+  const float angle = std::atan2(pairs[2 * best + 1], pairs[2 * best]);
   return angle < std::numbers::pi_v<float> ? angle : -std::numbers::pi_v<float>;
 }
 

@@ -6,8 +6,8 @@
 
 namespace posevote::surf {
 
-/// Direction of the largest sum of Haar-wavelet responses (side 4 s, at 109 points within 6 s,
-/// Gaussian weight of 2.5 s) that falls into a 60-degree sector, of which 72 are tried; radians in
+/// Direction of the largest sum of Haar-wavelet responses (side 6 s, at 8 x 8 points 1.5 s apart,
+/// Gaussian weight of 3 s) that falls into a 60-degree sector, of which 72 are tried; radians in
 /// [-pi, pi). Wavelets that reach past the margin are left out.
 [[nodiscard]] float orientation(const Integral& integral, const Keypoint& keypoint);
 

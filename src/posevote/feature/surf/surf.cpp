@@ -9,7 +9,6 @@
 #include "posevote/feature/picture.hpp"
 #include "posevote/feature/surf/descriptor.hpp"
 #include "posevote/feature/surf/orientation.hpp"
-#include "posevote/feature/surf/select.hpp"
 
 namespace posevote::surf {
 namespace {
@@ -33,34 +32,50 @@ void scale_keypoints(std::vector<Keypoint>& keypoints, float factor) {
 void Workspace::load(const cv::Mat& image, const FeatureOptions& options) {
   grey_ = to_grey(image);
   if (!options.surf.double_size || grey_.empty()) return;
-  cv::Mat doubled;
-  cv::resize(grey_, doubled, {}, 2, 2, cv::INTER_LINEAR);
-  grey_ = doubled;
+  cv::resize(grey_, doubled_, {}, 2, 2, cv::INTER_LINEAR);
+  grey_ = doubled_;
 }
 
-std::vector<Keypoint> Workspace::find(const cv::Mat& mask, const FeatureOptions& options) {
+void Workspace::find(const cv::Mat& mask, const FeatureOptions& options) {
   Stopwatch watch;
-  const int team = team_size(options.surf);
-  integral_.prepare(grey_, options.surf.smooth, team);
-  search_.prepare(integral_, options.surf, team);
-  std::vector<const std::vector<Candidate>*> shares(team);
-  run_team(team, [&](const Member& member) {
+  const int count = team_size(options.surf);
+  Selector::Options selection{options.max_features, options.surf.spread, mask, grey_.size()};
+  if (!mask.empty() && mask.size() != grey_.size()) {
+    cv::resize(mask, mask_, grey_.size(), 0, 0, cv::INTER_NEAREST);
+    selection.mask = mask_;
+  }
+  integral_.prepare(grey_, options.surf.smooth, options.surf.octaves, count);
+  search_.prepare(integral_, options.surf, count);
+  selector_.prepare(integral_, options.surf, selection);
+  team_.run(count, [&](const Member& member) {
+    const bool leads = member.index() == 0;
     integral_.compute(member);
-    if (member.index() == 0) times_.integral = watch.lap();
-    shares[member.index()] = &search_.search(member);
+    if (leads) times_.integral = watch.lap();
+    search_.search(member);
+    member.wait();
+    if (leads) times_.hessian = watch.lap();
+    if (leads) search_.collect(selector_.peaks());
+    selector_.select(member);
+    if (leads) times_.suppression = watch.lap();
   });
-  times_.hessian = watch.lap();
-  std::vector<const Candidate*> candidates;
-  for (const auto* share : shares)
-    for (const Candidate& candidate : *share) candidates.push_back(&candidate);
-  cv::Mat scaled_mask = mask;
-  if (!mask.empty() && mask.size() != grey_.size())
-    cv::resize(mask, scaled_mask, grey_.size(), 0, 0, cv::INTER_NEAREST);
-  auto keypoints =
-      select(std::move(candidates),
-             {options.max_features, options.surf.spread, scaled_mask, grey_.size()}, integral_);
-  times_.selection = watch.lap();
-  return keypoints;
+}
+
+// By squares of 32 x 32 px, row by row: the sums of one key point are in the cache for the next.
+void Workspace::sort_by_place(const std::vector<Keypoint>& keypoints) {
+  constexpr int kTile = 32;
+  const int columns = grey_.cols / kTile + 1, rows = grey_.rows / kTile + 1;
+  const auto tile_of = [&](const Keypoint& keypoint) {
+    const auto along = [](float at, int count) {
+      return std::clamp(static_cast<int>(at) / kTile, 0, count - 1);
+    };
+    return along(keypoint.y, rows) * columns + along(keypoint.x, columns);
+  };
+  tile_ends_.assign(static_cast<std::size_t>(columns) * rows + 1, 0);
+  for (const Keypoint& keypoint : keypoints) ++tile_ends_[tile_of(keypoint) + 1];
+  std::partial_sum(tile_ends_.begin(), tile_ends_.end(), tile_ends_.begin());
+  order_.resize(keypoints.size());
+  for (std::size_t i = 0; i < keypoints.size(); ++i)
+    order_[tile_ends_[tile_of(keypoints[i])]++] = static_cast<int>(i);
 }
 
 cv::Mat Workspace::describe_all(std::vector<Keypoint>& keypoints, const FeatureOptions& options,
@@ -69,23 +84,16 @@ cv::Mat Workspace::describe_all(std::vector<Keypoint>& keypoints, const FeatureO
   const int count = static_cast<int>(keypoints.size());
   cv::Mat descriptors;
   if (with_descriptors) descriptors.create(count, kDescriptorSize, CV_32F);
-  // In scan order the sums of one key point are in the cache for the next.
-  std::vector<int> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](int i) {
-    return std::pair(static_cast<int>(keypoints[i].y) / 32, keypoints[i].x);
-  });
   Stopwatch watch;
-  if (with_descriptors) boxes_.prepare(integral_, keypoints);
-  run_team(team_size(options.surf), [&](const Member& member) {
+  sort_by_place(keypoints);
+  team_.run(team_size(options.surf), [&](const Member& member) {
     if (!options.surf.upright)
       for (int k = member.begin(count); k < member.end(count); ++k)
-        keypoints[order[k]].angle = orientation(integral_, keypoints[order[k]]);
+        keypoints[order_[k]].angle = orientation(integral_, keypoints[order_[k]]);
     if (member.index() == 0) times_.orientation = watch.lap();
     if (!with_descriptors) return;
-    boxes_.compute(member);
     for (int k = member.begin(count); k < member.end(count); ++k)
-      surf::describe(integral_, boxes_, keypoints[order[k]], descriptors.ptr<float>(order[k]));
+      surf::describe(integral_, keypoints[order_[k]], descriptors.ptr<float>(order_[k]));
   });
   times_.descriptor = watch.lap();
   return descriptors;
@@ -98,7 +106,8 @@ Features Workspace::extract(const cv::Mat& image, const cv::Mat& mask,
   load(image, options);
   Features features;
   if (grey_.empty()) return features;
-  features.keypoints = find(mask, options);
+  find(mask, options);
+  features.keypoints = selector_.keypoints();
   features.descriptors = describe_all(features.keypoints, options, with_descriptors);
   if (options.surf.double_size) scale_keypoints(features.keypoints, 0.5F);
   grey_.release();
@@ -110,8 +119,8 @@ cv::Mat Workspace::describe(const cv::Mat& image, std::vector<Keypoint>& keypoin
   load(image, options);
   if (grey_.empty() || keypoints.empty()) return {};
   const int team = team_size(options.surf);
-  integral_.prepare(grey_, options.surf.smooth, team);
-  run_team(team, [&](const Member& member) { integral_.compute(member); });
+  integral_.prepare(grey_, options.surf.smooth, 1, team);
+  team_.run(team, [&](const Member& member) { integral_.compute(member); });
   if (options.surf.double_size) scale_keypoints(keypoints, 2);
   cv::Mat descriptors = describe_all(keypoints, options, true);
   if (options.surf.double_size) scale_keypoints(keypoints, 0.5F);

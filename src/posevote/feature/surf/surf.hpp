@@ -9,12 +9,15 @@
 #include "posevote/feature/surf/descriptor.hpp"
 #include "posevote/feature/surf/hessian.hpp"
 #include "posevote/feature/surf/integral.hpp"
+#include "posevote/feature/surf/select.hpp"
+#include "posevote/feature/surf/team.hpp"
 
 namespace posevote::surf {
 
-/// Wall time of each step, ms.
+/// Wall time of each step of one member of the team, ms. `hessian` ends with the peaks of each pair
+/// of layers, `suppression` with the key points' places and scales.
 struct StageTimes {
-  double integral = 0, hessian = 0, selection = 0, orientation = 0, descriptor = 0;
+  double integral = 0, hessian = 0, suppression = 0, orientation = 0, descriptor = 0;
 };
 
 /// Keeps its buffers from picture to picture; one thread at a time.
@@ -32,14 +35,17 @@ class Workspace {
 
  private:
   void load(const cv::Mat& image, const FeatureOptions& options);
-  [[nodiscard]] std::vector<Keypoint> find(const cv::Mat& mask, const FeatureOptions& options);
+  void find(const cv::Mat& mask, const FeatureOptions& options);
+  void sort_by_place(const std::vector<Keypoint>& keypoints);
   [[nodiscard]] cv::Mat describe_all(std::vector<Keypoint>& keypoints,
                                      const FeatureOptions& options, bool with_descriptors);
 
-  cv::Mat grey_;
+  cv::Mat grey_, doubled_, mask_;
+  Team team_;
   Integral integral_;
   BlobSearch search_;
-  BoxSums boxes_;
+  Selector selector_;
+  std::vector<int> order_, tile_ends_;
   StageTimes times_;
 };
 

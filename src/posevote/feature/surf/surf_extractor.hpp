@@ -7,6 +7,9 @@
 
 namespace posevote {
 
-[[nodiscard]] std::shared_ptr<const Extractor> make_surf_extractor(const FeatureOptions& options);
+/// `suits_size`: whether `double_below_px` and `more_in_large` count; otherwise pictures of all
+/// sizes are treated alike.
+[[nodiscard]] std::shared_ptr<const Extractor> make_surf_extractor(const FeatureOptions& options,
+                                                                   bool suits_size = false);
 
 }  // namespace posevote

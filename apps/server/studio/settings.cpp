@@ -10,7 +10,7 @@
 namespace posevote::server {
 namespace {
 
-/// Worth showing to everybody; the dial comes first.
+/// Worth showing to everybody, in this order.
 constexpr std::array kBasic = {"recognize.verify.false_alarms_per_1000_images",
                                "recognize.unknown",
                                "live.recognize",
@@ -123,15 +123,15 @@ Json Settings::json() const {
   StudioOptions now = options(), base = base_;
   const OptionList list = list_options(now), defaults = list_options(base);
   Json settings = Json::array();
-  const auto add = [&](bool basic) {
-    for (std::size_t i = 0; i < list.fields().size(); ++i) {
-      const OptionField& field = list.fields()[i];
-      if (is_listed(field.name) && is_basic(field.name) == basic)
-        settings.push_back(field_json(field, defaults.fields()[i]));
-    }
-  };
-  add(true);
-  add(false);
+  for (const char* basic : kBasic)
+    for (std::size_t i = 0; i < list.fields().size(); ++i)
+      if (list.fields()[i].name == basic)
+        settings.push_back(field_json(list.fields()[i], defaults.fields()[i]));
+  for (std::size_t i = 0; i < list.fields().size(); ++i) {
+    const OptionField& field = list.fields()[i];
+    if (is_listed(field.name) && !is_basic(field.name))
+      settings.push_back(field_json(field, defaults.fields()[i]));
+  }
   return {{"settings", std::move(settings)}};
 }
 

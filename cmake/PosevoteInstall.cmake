@@ -66,7 +66,7 @@ install(TARGETS posevote_library EXPORT posevoteTargets
 
 # Headers of the modules' own folders are public; deeper folders and these few are the library's own
 # business, and need C++20 or a dependency's headers.
-set(posevote_internal "/(made_[a-z_]+|object_store_contract|paper_parts|index/parallel|index/each_target)\\.hpp$")
+set(posevote_internal "/(made_[a-z_]+|object_store_contract|paper_parts|core/bytes|index/parallel|index/each_target)\\.hpp$")
 foreach(module IN LISTS posevote_modules)
   string(REGEX REPLACE "^posevote_" "" folder ${module})
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/posevote/${folder}/*.hpp)

@@ -62,6 +62,7 @@ void Node::advertise(ros::NodeHandle& private_nh) {
       private_nh.advertise<visualization_msgs::MarkerArray>("markers", 1, connected, connected);
   annotated_ =
       image_transport::ImageTransport(private_nh).advertise("annotated", 1, connected, connected);
+  vision_ = std::make_unique<VisionPublisher>(private_nh, [this] { update_subscription(); });
   database_ = private_nh.advertise<posevote_msgs::DatabaseInfo>("database", 1, true);
 }
 

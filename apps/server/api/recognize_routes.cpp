@@ -89,16 +89,17 @@ Response add_impostor(const Request& request, Studio& studio) {
   Body body = request.read_body(most_bytes(studio.limits.body_mb));
   const JobSlots::Slot slot(studio.jobs);
   const SentPicture picture = meant_picture(request, std::move(body), studio);
-  cv::Mat area = to_bgr8(picture.image);
-  if (box) {
-    const cv::Rect inside = *box & cv::Rect({}, area.size());
-    if (inside.empty()) throw invalid("the box lies outside the picture");
-    area = area(inside).clone();
-  }
+  const cv::Mat frame = to_bgr8(picture.image);
+  cv::Rect inside({}, frame.size());
+  if (box) inside &= *box;
+  if (inside.empty()) throw invalid("the box lies outside the picture");
+  cv::Mat mask(frame.size(), CV_8U, cv::Scalar(0));
+  mask(inside) = 255;
   const FeatureOptions features = studio.catalogue.features();
   Impostor impostor;
-  impostor.picture = encode_png(area);
-  impostor.features = make_extractor(features)->extract(area);
+  impostor.picture = encode_png(frame(inside));
+  // Of the whole frame, so that they are the very features that matched.
+  impostor.features = make_extractor(features)->extract(frame, mask);
   impostor.provenance = {picture.source, "", studio.version};
   const AddResult result =
       studio.catalogue.store().add_impostor(impostor, record_features(features));

@@ -92,18 +92,21 @@ Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
   return detection;
 }
 
-/// Nothing beyond its reference can match a scene feature, unless the ratio says otherwise.
+/// Nothing beyond its reference can match a scene feature, unless the ratio says otherwise. Where
+/// somebody marked false detections, none of what he marked may be missed: the search that looks
+/// at more is taken.
 NeighborLists find_neighbors(const Index& index, const Features& scene, const MatchOptions& options,
-                             const std::vector<int>& groups) {
-  return options.max_ratio < 1 ? index.search_rivals(scene, options.neighbors, groups)
-                               : index.search(scene, options.neighbors);
+                             const std::vector<int>& groups, bool any_marked) {
+  const bool rivals_suffice = options.max_ratio < 1 && !any_marked;
+  return rivals_suffice ? index.search_rivals(scene, options.neighbors, groups)
+                        : index.search(scene, options.neighbors);
 }
 
 /// Of the strongest features only, if the time is short.
 NeighborLists find_neighbors_in_time(const Index& index, const Features& scene,
                                      const MatchOptions& options, const std::vector<int>& groups,
-                                     const Deadline& deadline, bool& incomplete) {
-  if (!deadline.limited()) return find_neighbors(index, scene, options, groups);
+                                     bool any_marked, const Deadline& deadline, bool& incomplete) {
+  if (!deadline.limited()) return find_neighbors(index, scene, options, groups, any_marked);
   constexpr std::size_t kAtOnce = 512;
   NeighborLists result(scene.size(), static_cast<std::size_t>(options.neighbors));
   for (std::size_t first = 0; first < scene.size(); first += kAtOnce) {
@@ -115,7 +118,7 @@ NeighborLists find_neighbors_in_time(const Index& index, const Features& scene,
     const Features some{{scene.keypoints.begin() + static_cast<std::ptrdiff_t>(first),
                          scene.keypoints.begin() + static_cast<std::ptrdiff_t>(end)},
                         scene.descriptors.rowRange(static_cast<int>(first), static_cast<int>(end))};
-    const NeighborLists found = find_neighbors(index, some, options, groups);
+    const NeighborLists found = find_neighbors(index, some, options, groups, any_marked);
     for (std::size_t i = 0; i < found.size(); ++i)
       std::ranges::copy(found[i], result.fill(first + i, found[i].size()));
   }
@@ -208,9 +211,10 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
   Stopwatch watch;
 
   const ModelSet& models = *now.models;
-  const Neighborhood neighborhood(find_neighbors_in_time(*now.index, scene, options.match,
-                                                         now.groups, deadline, result.incomplete),
-                                  models, now.look_alikes.table);
+  const Neighborhood neighborhood(
+      find_neighbors_in_time(*now.index, scene, options.match, now.groups,
+                             !models.impostors().empty(), deadline, result.incomplete),
+      models, now.look_alikes.table);
   const auto matches = match_features(neighborhood, options.match);
   result.counts.matched = count_distinct(matches, [](const Match& m) { return m.scene; });
   result.time_ms.match = watch.lap();

@@ -16,10 +16,11 @@ struct Model {
 };
 
 // Fitted on the development sets: bench/calibrate_presence.py says how, and prints these lines.
-constexpr Model kObject{-10.35, {0.498, 0.417, 3.652, 0.889, 1.798, -11.713, 6.228, 0.871, 1.374,
-                                11.355, 0.939, -0.363}};
-constexpr Model kPlace{1.39, {0.835, 0.381, 5.245, 2.319, -0.628, 6.613, -4.562, 2.654, 0.278,
-                              -5.416, 4.507, 2.107}};
+constexpr Model kObject{
+    -10.35,
+    {0.498, 0.417, 3.652, 0.889, 1.798, -11.713, 6.228, 0.871, 1.374, 11.355, 0.939, -0.363}};
+constexpr Model kPlace{
+    1.39, {0.835, 0.381, 5.245, 2.319, -0.628, 6.613, -4.562, 2.654, 0.278, -5.416, 4.507, 2.107}};
 
 /// Fitted to what the same script says of sets left out. False detections per 1000 pictures at odds
 /// o of the least probability: at_even_odds * o ^ (-1 / steepness).

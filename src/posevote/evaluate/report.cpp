@@ -171,9 +171,10 @@ std::string in_short(const std::vector<Evaluation>& evaluations) {
   }
   const auto number = [](int count) { return std::to_string(count); };
   std::string text = "**In short:** of " + number(all.asked) + " objects in " + number(all.images) +
-                     " pictures of " + std::to_string(evaluations.size()) + " data sets " +
-                     number(all.right) + " are found (" + percent(all.recall()) + "); " +
-                     number(all.false_positives) + " answers are false";
+                     " pictures of " + number(static_cast<int>(evaluations.size())) +
+                     (evaluations.size() == 1 ? " data set " : " data sets ") + number(all.right) +
+                     " are found (" + percent(all.recall()) + "); " + number(all.false_positives) +
+                     " answers are false";
   if (negatives.images > 0)
     text += ", and " + number(negatives.false_positives) + " on " + number(negatives.images) +
             " pictures that show none of the objects";

@@ -9,6 +9,7 @@
 #include "pictures.hpp"
 #include "posevote/core/error.hpp"
 #include "posevote/store/object_name.hpp"
+#include "posevote/teach/quality.hpp"
 #include "posevote/teach/teacher.hpp"
 #include "progress.hpp"
 #include "quality_cards.hpp"
@@ -21,7 +22,7 @@ struct TeachArguments {
   std::string name, background, roi, features, database;
   std::vector<std::string> images, masks, settings;
   std::vector<double> yaws;
-  bool whole = false, brief = false;
+  bool whole = false, brief = false, skip_redundant = false;
 };
 
 /// What all pictures of one call have in common.
@@ -120,6 +121,27 @@ void print_cards(const std::string& name, const std::vector<std::shared_ptr<cons
   print_resemblances(name, views, *models, features, std::cout);
 }
 
+/// Whether the object's other views know most of the view's features already; says so then.
+bool is_redundant(const TaughtView& taught, const TeachArguments& arguments,
+                  const std::vector<std::shared_ptr<const View>>& others,
+                  const FeatureOptions& features) {
+  QualityOptions options;
+  options.feature = features;
+  const double redundancy = measure_redundancy(taught.view, others, options);
+  if (redundancy < options.redundant_from) return false;
+  std::cout << arguments.name << ": " << taught.provenance.source << " is left out, "
+            << std::lround(100 * redundancy) << " % of its features are known from other views\n";
+  return true;
+}
+
+std::vector<std::shared_ptr<const View>> views_of(const std::string& name,
+                                                  const ObjectStore& store) {
+  const auto models = store.load();
+  const auto object = std::ranges::find(models->objects(), name, &ObjectModel::name);
+  return object == models->objects().end() ? std::vector<std::shared_ptr<const View>>{}
+                                           : object->views;
+}
+
 void run(const TeachArguments& arguments, CommandContext& context) {
   check_counts(arguments);
   check_object_name(arguments.name);
@@ -135,20 +157,24 @@ void run(const TeachArguments& arguments, CommandContext& context) {
   lesson.options = options;
 
   ProgressBar progress("teaching " + arguments.name, arguments.images.size());
-  std::vector<std::shared_ptr<const View>> views;
+  std::vector<std::shared_ptr<const View>> views, others;
+  if (store && arguments.skip_redundant) others = views_of(arguments.name, *store);
   for (std::size_t i = 0; i < arguments.images.size(); ++i) {
     try {
       TaughtView taught = make_view(arguments, i, lesson);
-      if (!store) store = open_database(arguments.database, Access::create);
-      const AddResult result =
-          store->add_view(arguments.name, taught, record_features(options.feature));
       progress.clear();
-      print(arguments.name, taught, result);
-      std::cout.flush();
-      if (result.added && !arguments.brief) {
-        taught.view.id = result.id;
-        views.push_back(std::make_shared<View>(std::move(taught.view)));
+      if (!arguments.skip_redundant || !is_redundant(taught, arguments, others, options.feature)) {
+        if (!store) store = open_database(arguments.database, Access::create);
+        const AddResult result =
+            store->add_view(arguments.name, taught, record_features(options.feature));
+        print(arguments.name, taught, result);
+        if (result.added) {
+          taught.view.id = result.id;
+          views.push_back(std::make_shared<View>(std::move(taught.view)));
+          others.push_back(views.back());
+        }
       }
+      std::cout.flush();
     } catch (const Error& error) {
       const bool of_the_picture = error.code() == ErrorCode::unreadable_image ||
                                   error.code() == ErrorCode::unusable_view ||
@@ -161,7 +187,8 @@ void run(const TeachArguments& arguments, CommandContext& context) {
     progress.advance();
   }
   progress.clear();
-  if (!views.empty()) print_cards(arguments.name, views, *store, options.feature);
+  if (!views.empty() && !arguments.brief)
+    print_cards(arguments.name, views, *store, options.feature);
 }
 
 }  // namespace
@@ -198,6 +225,8 @@ void add_teach(CLI::App& app, CommandContext& context) {
       if (one != other) one->excludes(other);
   command->add_option("--yaw", a.yaws, "Turn of the object about the vertical axis, for each IMAGE")
       ->type_name("DEG");
+  command->add_flag("--skip-redundant", a.skip_redundant,
+                    "Leave out pictures most of whose features the object's other views show");
   command->add_flag("--brief", a.brief,
                     "Do not rate the views: how well they will be found, what they look like");
   add_features(*command, a.features);

@@ -227,12 +227,16 @@ def run(found):
     tasks = list(tasks_of(found.inputs))
     results = Results(found.out, tied_to, found.restart)
     client, cluster = open_client(found.scheduler, found.workers)
+    from distributed.comm import CommClosedError
+
     progress = Progress(len(tasks))
     batch = Batch(client, job, results, say)
     try:
         if progress.shown:
             print(f"dashboard: {dashboard(client)}", file=sys.stderr)
         batch.run(tasks, progress)
+    except CommClosedError as error:
+        raise CancelledError from error
     finally:
         progress.close()
         results.close()

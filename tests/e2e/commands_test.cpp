@@ -73,6 +73,20 @@ TEST_F(Commands, TeachingAgainAddsNothingTwice) {
   EXPECT_EQ(run({"objects", "show", "poster", "--json"}).lines().size(), 1U);
 }
 
+TEST_F(Commands, TeachingLeavesOutViewsThatAddLittleWhenAsked) {
+  teach_poster();
+  cv::Mat same;
+  cv::GaussianBlur(poster_, same, cv::Size(), 0.8);
+  const std::string again = write("again.png", same);
+  const Outcome both =
+      run({"teach", "poster", again, demo("train/muesli/y000.jpg"), "--whole", "--skip-redundant"});
+  EXPECT_EQ(both.status, 0);
+  EXPECT_THAT(both.out, HasSubstr("again.png is left out"));
+  EXPECT_EQ(run({"objects", "show", "poster", "--json"}).lines().size(), 2U);
+  EXPECT_EQ(run({"teach", "poster", again, "--whole"}).status, 0);
+  EXPECT_EQ(run({"objects", "show", "poster", "--json"}).lines().size(), 3U);
+}
+
 TEST_F(Commands, TeachingRatesTheViewsAndNamesWhatLooksAlike) {
   const auto teach = [&](const std::string& name, const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"teach", name, demo("train/" + name + "/y000.jpg"),

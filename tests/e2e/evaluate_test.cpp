@@ -141,7 +141,8 @@ TEST_F(DatasetCommand, FindsMistakes) {
   fs::remove(path("set/train/poster/cover.jpg"));
   const Outcome outcome = run({"dataset", "check", path("set")});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("cover.jpg"), HasSubstr("mug"), HasSubstr("beyond the picture")));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("cover.jpg"), HasSubstr("mug"), HasSubstr("beyond the picture")));
 }
 
 TEST_F(DatasetCommand, RefusesWhatCannotBe) {

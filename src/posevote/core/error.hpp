@@ -8,15 +8,15 @@ namespace posevote {
 
 /// Why something could not be done. Adapters map these to exit status, HTTP status or Python class.
 enum class ErrorCode {
-  invalid_argument,    ///< an option, a name or a shape is out of range; the message says which
-  unreadable_image,    ///< the file is missing, not an image, or larger than the limit
-  unusable_view,       ///< the picture was read, but no object can be taught from it; has advice
-  not_found,           ///< no such object, view or file
-  already_exists,      ///< the new name is taken
-  feature_mismatch,    ///< features of another kind or with other parameters may not be mixed
-  database_unusable,   ///< not a posevote database, damaged, or of a newer version
-  io,                  ///< disk full, no permission, connection lost
-  unsupported,         ///< this build lacks the part that was asked for
+  invalid_argument,   ///< an option, a name or a shape is out of range; the message says which
+  unreadable_image,   ///< the file is missing, not an image, or larger than the limit
+  unusable_view,      ///< the picture was read, but no object can be taught from it; has advice
+  not_found,          ///< no such object, view or file
+  already_exists,     ///< the new name is taken
+  feature_mismatch,   ///< features of another kind or with other parameters may not be mixed
+  database_unusable,  ///< not a posevote database, damaged, or of a newer version
+  io,                 ///< disk full, no permission, connection lost
+  unsupported,        ///< this build lacks the part that was asked for
 };
 
 /// Stable lower-case name, e.g. "not_found".

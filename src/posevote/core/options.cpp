@@ -133,8 +133,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   std::size_t best_distance = static_cast<std::size_t>(-1);
   for (const auto& candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
-    const std::size_t limit =
-        std::max<std::size_t>(2, std::max(word.size(), candidate.size()) / 3);
+    const std::size_t limit = std::max<std::size_t>(2, std::max(word.size(), candidate.size()) / 3);
     if (distance <= limit && distance < best_distance) {
       best = candidate;
       best_distance = distance;

@@ -1,7 +1,8 @@
-// Options that describe themselves: defaults, ranges, units and help live in the option structs alone;
-// command line, server, Python, ROS and docs read them from here.
+// Options that describe themselves: defaults, ranges, units and help live in the option structs
+// alone; command line, server, Python, ROS and docs read them from here.
 //
-// An option struct is plain data with a member `void describe(OptionList& list)` that names its fields:
+// An option struct is plain data with a member `void describe(OptionList& list)` that names its
+// fields:
 //
 //   void SurfOptions::describe(OptionList& list) {
 //     list.add("octaves", octaves, {1, 8}, "", "Number of octaves of the scale space.");

@@ -327,12 +327,13 @@ void distances(const float* query, const float* const* rows, std::size_t count,
                                         hn::LoadU(floats, row + d + s * kWidth));
         sums[s] = hn::Add(sums[s], hn::Mul(difference, difference));
       }
-    float parts[kSumParts];
-    for (std::size_t s = 0; s < kSums; ++s) hn::StoreU(sums[s], floats, parts + s * kWidth);
+    for (std::size_t n = kSums / 2; n > 0; n /= 2)
+      for (std::size_t s = 0; s < n; ++s) sums[s] = hn::Add(sums[s], sums[s + n]);
+    float parts[kWidth];
+    hn::StoreU(sums[0], floats, parts);
     float sum = 0;
     for (; d < dimension; ++d) sum += (query[d] - row[d]) * (query[d] - row[d]);
-    for (const float part : parts) sum += part;
-    results[i] = std::sqrt(sum);
+    results[i] = std::sqrt(sum + sum_in_halves(parts));
   }
 }
 
@@ -377,10 +378,8 @@ Rounding encode(const float* row, std::size_t dimension, float scale, std::int8_
     result.lost += error * row[d];
     result.sum += code[d];
   }
-  for (std::size_t i = 0; i < kSumParts; ++i) {
-    result.squares += square_parts[i];
-    result.lost += lost_parts[i];
-  }
+  result.squares += sum_in_halves(square_parts);
+  result.lost += sum_in_halves(lost_parts);
   return result;
 }
 

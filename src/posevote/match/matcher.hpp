@@ -10,7 +10,7 @@
 namespace posevote {
 
 struct MatchOptions {
-  int neighbors = 24;       ///< nearest taught descriptors looked at per scene feature
+  int neighbors = 24;      ///< nearest taught descriptors looked at per scene feature
   double max_ratio = 0.9;  ///< distance / distance to the nearest descriptor of another object
   void describe(OptionList& list);
 };

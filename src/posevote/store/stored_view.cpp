@@ -60,7 +60,7 @@ void throw_database_error(ErrorCode code, const std::string& location, const std
 
 View checked_view(const std::function<View()>& read, const std::string& identity,
                   const std::string& signature, const std::string& location) {
-  const View view = unless_damaged(read, location);
+  View view = unless_damaged(read, location);
   if (content_hash(view, identity, signature) != view.hash)
     throw_database_error(ErrorCode::database_unusable, location,
                          "is damaged: view " + view.id +

@@ -57,7 +57,10 @@ std::string content_hash(const View& view, const std::string& identity,
   hash.add(encode_points(view.outline));
   hash.add(encode_points({view.centre}));
   hash.add(encode_keypoints(view.features));
-  hash.add(encode_descriptors(view.features));
+  // As encode_descriptors has them, but not copied: these are nearly all bytes of a view.
+  const cv::Mat& rows = view.features.descriptors;
+  CV_Assert(rows.empty() || (rows.type() == CV_32F && rows.isContinuous()));
+  hash.add(rows.data, rows.total() * sizeof(float));
   return hash.hex();
 }
 

@@ -149,7 +149,7 @@ double redundancy_of(const View& view, const std::vector<std::shared_ptr<const V
                      const std::vector<float>& elsewhere, double max_ratio) {
   std::vector<char> known(view.features.size(), 0);
   for (const auto& other : others) {
-    if (!other || other->features.empty()) continue;
+    if (!other || other.get() == &view || other->features.empty()) continue;
     if (other->features.descriptors.cols != view.features.descriptors.cols) continue;
     const cv::Mat distances =
         distances_of(view.features.descriptors, strongest_of(other->features).descriptors);
@@ -251,6 +251,15 @@ double next_yaw(const std::vector<double>& yaws_deg, double max_gap_deg) {
   if (widest <= max_gap_deg + kRounding) return std::nan("");
   const double next = start + widest / std::ceil((widest - kRounding) / max_gap_deg);
   return next >= 360 ? next - 360 : next;
+}
+
+double measure_redundancy(const View& view, const std::vector<std::shared_ptr<const View>>& others,
+                          const QualityOptions& options) {
+  validate_options(options);
+  if (view.features.empty()) return 0;
+  View strong = view;
+  strong.features = strongest_of(view.features);
+  return redundancy_of(strong, others, nearest_elsewhere(strong.features), options.max_ratio);
 }
 
 ViewQuality assess_view(const View& view, const std::vector<std::shared_ptr<const View>>& others,

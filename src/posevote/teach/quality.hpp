@@ -49,6 +49,12 @@ struct ViewQuality {
                                       const std::vector<std::shared_ptr<const View>>& others,
                                       const QualityOptions& options = {});
 
+/// See ViewQuality::redundancy; other arguments as for `assess_view`. 0 for a view without
+/// features.
+[[nodiscard]] double measure_redundancy(const View& view,
+                                        const std::vector<std::shared_ptr<const View>>& others,
+                                        const QualityOptions& options = {});
+
 /// See ViewQuality::next_yaw_deg; NaN entries are left out. 0 for no yaw at all.
 [[nodiscard]] double next_yaw(const std::vector<double>& yaws_deg, double max_gap_deg);
 

@@ -51,6 +51,16 @@ TEST(AssessView, FindsNothingWrongWithARichPicture) {
   EXPECT_THAT(quality.advice, ::testing::IsEmpty());
 }
 
+TEST(MeasureRedundancy, IsHighForTheSameSideAndLowForAnother) {
+  const auto front = std::make_shared<View>(taught(rich(7)));
+  cv::Mat again = rich(7);
+  made::add_noise(again, 3, 1);
+  EXPECT_GT(measure_redundancy(taught(again), {front}, sift()), 0.8);
+  EXPECT_LT(measure_redundancy(taught(rich(8)), {front}, sift()), 0.3);
+  EXPECT_EQ(measure_redundancy(*front, {front}, sift()), 0);
+  EXPECT_EQ(measure_redundancy(View(), {front}, sift()), 0);
+}
+
 TEST(AssessView, SeesRepeatedTexture) {
   const ViewQuality quality = assess_view(taught(tiled()), {}, sift());
   EXPECT_GT(quality.self_similarity, 0.6);

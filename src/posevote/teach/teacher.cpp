@@ -4,6 +4,7 @@
 
 #include "posevote/core/error.hpp"
 #include "posevote/teach/outline.hpp"
+#include "posevote/teach/repeatable.hpp"
 
 namespace posevote {
 namespace {
@@ -48,29 +49,46 @@ cv::Mat from_alpha_or_all(const cv::Mat& picture) {
   return cv::Mat(picture.size(), CV_8U, cv::Scalar(255));
 }
 
+// Those of which `keeps(i)` is true.
+template <class Keeps>
+Features select(const Features& features, Keeps&& keeps) {
+  Features kept;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (!keeps(i)) continue;
+    kept.keypoints.push_back(features.keypoints[i]);
+    kept.descriptors.push_back(features.descriptors.row(static_cast<int>(i)));
+  }
+  return kept;
+}
+
+Features inside_border(const Features& features, const cv::Mat& mask, double border_scales) {
+  // Beyond the picture there is nothing of the object either.
+  cv::Mat framed, distance;
+  cv::copyMakeBorder(mask, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::distanceTransform(framed, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  return select(features, [&](std::size_t i) {
+    const Keypoint& k = features.keypoints[i];
+    const int x = std::clamp(cvRound(k.x), 0, mask.cols - 1);
+    const int y = std::clamp(cvRound(k.y), 0, mask.rows - 1);
+    return distance.at<float>(y + 1, x + 1) >= border_scales * k.scale;
+  });
+}
+
 Features features_inside(const cv::Mat& picture, const cv::Mat& mask, const TeachOptions& options) {
-  cv::Mat seen = picture, wanted = mask;
+  cv::Mat seen = picture;
   if (options.paint_surroundings) {
     seen = picture.clone();
     seen.setTo(cv::mean(picture, mask), mask == 0);
   }
   const auto extractor = make_extractor(options.feature);
   Features features = extractor->extract(seen, mask);
-  if (options.border_scales <= 0 || features.empty()) return features;
-  // Beyond the picture there is nothing of the object either.
-  cv::Mat framed, distance;
-  cv::copyMakeBorder(mask, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::distanceTransform(framed, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  Features inner;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const Keypoint& k = features.keypoints[i];
-    const int x = std::clamp(cvRound(k.x), 0, mask.cols - 1);
-    const int y = std::clamp(cvRound(k.y), 0, mask.rows - 1);
-    if (distance.at<float>(y + 1, x + 1) < options.border_scales * k.scale) continue;
-    inner.keypoints.push_back(k);
-    inner.descriptors.push_back(features.descriptors.row(static_cast<int>(i)));
+  if (options.border_scales > 0 && !features.empty())
+    features = inside_border(features, mask, options.border_scales);
+  if (options.only_repeatable) {
+    const auto repeats = find_repeatable(seen, mask, features, *extractor);
+    features = select(features, [&](std::size_t i) { return repeats[i] != 0; });
   }
-  return inner;
+  return features;
 }
 
 }  // namespace
@@ -84,6 +102,8 @@ void TeachOptions::describe(OptionList& list) {
            "Leave out features nearer to the silhouette than this many times their scale.");
   list.add("paint_surroundings", paint_surroundings,
            "Paint the surroundings in the object's mean colour before looking for features.");
+  list.add("only_repeatable", only_repeatable,
+           "Keep only features that are found again when the object is turned or farther off.");
 }
 
 cv::Mat find_object(const ViewSource& source, const SegmentOptions& options) {

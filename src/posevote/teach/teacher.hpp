@@ -36,6 +36,9 @@ struct TeachOptions {
   /// descriptors at the silhouette hold no texture of the background that was taught on. Changes
   /// the silhouette's own contrast.
   bool paint_surroundings = false;
+  /// Keep only features that repeat, see find_repeatable: the others make the database larger and
+  /// hardly ever match.
+  bool only_repeatable = true;
   void describe(OptionList& list);
 };
 

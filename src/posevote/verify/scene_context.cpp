@@ -1,48 +1,56 @@
 #include "posevote/verify/scene_context.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+
+#include "posevote/index/dots.hpp"
 
 namespace posevote {
+namespace {
+
+/// The `rank`-th smallest, where rank is small; `smallest` is room to work in.
+float nth_smallest(const std::vector<float>& values, std::size_t rank,
+                   std::vector<float>& smallest) {
+  smallest.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank));
+  std::ranges::sort(smallest);
+  for (std::size_t i = rank; i < values.size(); ++i) {
+    if (!(values[i] < smallest.back())) continue;
+    smallest.pop_back();
+    smallest.insert(std::ranges::upper_bound(smallest, values[i]), values[i]);
+  }
+  return smallest.back();
+}
+
+}  // namespace
 
 SceneRivals::SceneRivals(const ModelSet& models, const Features& scene, int rank)
-    : models_(models), scene_(scene), rank_(rank), distances_(models.views().size()) {}
+    : models_(models),
+      dimension_(static_cast<std::size_t>(scene.descriptors.cols)),
+      distances_(models.views().size()) {
+  constexpr int kSample = 1000;  // the strongest; enough to tell common from rare
+  const int count = std::min(kSample, static_cast<int>(scene.size()));
+  for (int s = 0; s < count; ++s) rows_.push_back(scene.descriptors.ptr<float>(s));
+  rank_ = static_cast<std::size_t>(std::min(rank, count));
+  to_all_.resize(rows_.size());
+}
 
 Reference SceneRivals::reference(int view, int feature) {
   const Features& known = models_.views()[static_cast<std::size_t>(view)].view->features;
   auto& of_view = distances_[static_cast<std::size_t>(view)];
   if (of_view.empty()) of_view.assign(known.size(), -1.F);
   float& distance = of_view[static_cast<std::size_t>(feature)];
-  constexpr int kSample = 1000;  // the strongest; enough to tell common from rare
-  const int count = std::min(kSample, static_cast<int>(scene_.size()));
-  const int rank = std::min(rank_, count);
   if (distance < 0) {
-    buffer_.resize(static_cast<std::size_t>(count));
-    for (int s = 0; s < count; ++s)
-      buffer_[static_cast<std::size_t>(s)] =
-          descriptor_distance(scene_.descriptors, s, known.descriptors, feature);
-    std::ranges::nth_element(buffer_, buffer_.begin() + rank - 1);
-    distance = buffer_[static_cast<std::size_t>(rank - 1)];
+    distances(known.descriptors.ptr<float>(feature), rows_.data(), rows_.size(), dimension_,
+              to_all_.data());
+    distance = nth_smallest(to_all_, rank_, nearest_);
   }
-  return {distance, static_cast<double>(rank) / std::max(1, count)};
+  return {distance, static_cast<double>(rank_) / static_cast<double>(rows_.size())};
 }
 
 float descriptor_distance(const cv::Mat& a, int row_a, const cv::Mat& b, int row_b) {
-  const float* pa = a.ptr<float>(row_a);
-  const float* pb = b.ptr<float>(row_b);
-  // Independent sums, so that the compiler may use vector registers.
-  std::array<float, 16> sums{};
-  int i = 0;
-  for (; i + 16 <= a.cols; i += 16)
-    for (int j = 0; j < 16; ++j) {
-      const float difference = pa[i + j] - pb[i + j];
-      sums[static_cast<std::size_t>(j)] += difference * difference;
-    }
-  float sum = 0;
-  for (; i < a.cols; ++i) sum += (pa[i] - pb[i]) * (pa[i] - pb[i]);
-  for (const float part : sums) sum += part;
-  return std::sqrt(sum);
+  const float* row = b.ptr<float>(row_b);
+  float distance = 0;
+  distances(a.ptr<float>(row_a), &row, 1, static_cast<std::size_t>(a.cols), &distance);
+  return distance;
 }
 
 }  // namespace posevote

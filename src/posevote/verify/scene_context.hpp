@@ -24,10 +24,10 @@ class SceneRivals {
 
  private:
   const ModelSet& models_;
-  const Features& scene_;
-  int rank_;
+  std::vector<const float*> rows_;  ///< descriptors of the scene
+  std::size_t dimension_, rank_;
   std::vector<std::vector<float>> distances_;  ///< by view and feature; negative: not computed yet
-  std::vector<float> buffer_;
+  std::vector<float> to_all_, nearest_;        ///< buffers
 };
 
 /// References only: what they name must outlive it.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace posevote::surf {
 namespace {
@@ -24,6 +23,7 @@ bool solve(float xx, float yy, float ss, float xy, float xs, float ys, const flo
 // filters, and those of their neighbours in all layers, lie in the level.
 struct Range {
   int first, last;
+  [[nodiscard]] int size() const { return last - first + 1; }
 };
 Range range_of(int length, int level_length, int octave, int layers) {
   const int largest = lobe_of(layers + 1), reach = largest + largest / 2 + 1;
@@ -34,64 +34,74 @@ Range range_of(int length, int level_length, int octave, int layers) {
   return {std::max(first + 1, reach), std::min(last - 1, level_length - 1 - reach)};
 }
 
+Range columns_of(const Integral& integral, int octave, int layers) {
+  return range_of(integral.width() - 2 * kMargin, integral.view(octave).width, octave, layers);
+}
+Range rows_of(const Integral& integral, int octave, int layers) {
+  return range_of(integral.height() - 2 * kMargin, integral.view(octave).height, octave, layers);
+}
+
 }  // namespace
 
-void BlobSearch::prepare(const Integral& integral, const SurfOptions& options, int team_size) {
-  integral_ = &integral;
-  options_ = options;
-  stride_ = (integral.width() / 16 | 1) * 16 + 2 * simd::kSlack;
-  parts_.resize(team_size);
-  for (Part& part : parts_) {
-    part.ring.resize(static_cast<std::size_t>(3) * stride_);
-    part.columns.resize(integral.width());
-    part.peaks.clear();
-    part.ends.clear();
+// Two rows more than a block has are filtered: blocks are low only where threads share the work.
+void BlobSearch::cut_into_blocks(int threads) {
+  constexpr int kLeastRows = 48;
+  blocks_used_ = 0;
+  for (int octave = 0; octave < options_.octaves; ++octave) {
+    const Range rows = rows_of(*integral_, octave, options_.layers);
+    const int total = rows.last - rows.first + 1;
+    if (total < 1 || columns_of(*integral_, octave, options_.layers).size() < 1) continue;
+    const int count = threads > 1 ? std::clamp(total / kLeastRows, 1, 4 * threads) : 1;
+    for (int layer = 1; layer <= options_.layers; layer += 2)
+      for (int k = 0; k < count; ++k) {
+        if (blocks_used_ == static_cast<int>(blocks_.size())) blocks_.emplace_back();
+        Block& block = blocks_[blocks_used_++];
+        block.octave = octave;
+        block.layer = layer;
+        block.begin = rows.first + total * k / count;
+        block.end = rows.first + total * (k + 1) / count;
+        block.peaks.clear();
+      }
   }
 }
 
-void BlobSearch::search_pair(int octave, int layer, const Member& member, Part& part) const {
+void BlobSearch::search_block(Block& block, Buffers& buffers) const {
+  const int octave = block.octave, layer = block.layer;
   const simd::SumsView view = integral_->view(octave);
-  const Range columns =
-      range_of(integral_->width() - 2 * kMargin, view.width, octave, options_.layers);
-  const Range rows =
-      range_of(integral_->height() - 2 * kMargin, view.height, octave, options_.layers);
-  const int total = rows.last - rows.first + 1, count = columns.last - columns.first + 3;
-  if (total < 1 || count < 3) return;
+  const Range columns = columns_of(*integral_, octave, options_.layers);
+  const int count = columns.size() + 2;
   const auto norm = [&](int of) { return hessian_norm(filter_size(octave, of)); };
   simd::FilterPair filters{{lobe_of(layer), 0}, {norm(layer), 0}};
   if (layer < options_.layers)
     filters = {{lobe_of(layer), lobe_of(layer + 1)}, {norm(layer), norm(layer + 1)}};
   const auto threshold = static_cast<float>(std::max(options_.hessian_threshold, 1e-6));
-  const auto ring_row = [&](int y) { return part.ring.data() + y % 3 * stride_; };
-  const int begin = rows.first + member.begin(total), end = rows.first + member.end(total);
-  for (int y = begin - 1; y <= end && begin < end; ++y) {
+  const auto ring_row = [&](int y) { return buffers.ring.data() + y % 3 * stride_; };
+  for (int y = block.begin - 1; y <= block.end; ++y) {
     simd::hessian_row(view, columns.first - 1, y, count, filters, ring_row(y));
-    if (y <= begin) continue;
+    if (y <= block.begin) continue;
     const float* const around[3] = {ring_row(y - 2), ring_row(y - 1), ring_row(y)};
-    const int found = simd::find_peaks(around, count, threshold, part.columns.data());
+    const int found = simd::find_peaks(around, count, threshold, buffers.columns.data());
     for (int n = 0; n < found; ++n) {
-      const int i = part.columns[n];
-      part.peaks.push_back({around[1][i], static_cast<std::int16_t>(octave),
-                            static_cast<std::int16_t>(layer), columns.first - 1 + i, y - 1});
+      const int i = buffers.columns[n];
+      block.peaks.push_back({around[1][i], static_cast<std::int16_t>(octave),
+                             static_cast<std::int16_t>(layer), columns.first - 1 + i, y - 1});
     }
   }
 }
 
-void BlobSearch::search(const Member& member) {
-  Part& part = parts_[member.index()];
-  for (int octave = 0; octave < options_.octaves; ++octave)
-    for (int layer = 1; layer <= options_.layers; layer += 2) {
-      search_pair(octave, layer, member, part);
-      part.ends.push_back(part.peaks.size());
-    }
-}
-
-void BlobSearch::collect(std::vector<Peak>& peaks) const {
-  for (std::size_t k = 0; k < parts_[0].ends.size(); ++k)
-    for (const Part& part : parts_) {
-      const auto begin = part.peaks.begin();
-      peaks.insert(peaks.end(), begin + (k > 0 ? part.ends[k - 1] : 0), begin + part.ends[k]);
-    }
+void BlobSearch::search(const Integral& integral, const SurfOptions& options, Team& team,
+                        int threads) {
+  integral_ = &integral;
+  options_ = options;
+  stride_ = (integral.width() / 16 | 1) * 16 + 2 * simd::kSlack;
+  buffers_.resize(threads);
+  for (Buffers& buffers : buffers_) {
+    buffers.ring.resize(static_cast<std::size_t>(3) * stride_);
+    buffers.columns.resize(integral.width());
+  }
+  cut_into_blocks(threads);
+  team.share(threads, blocks_used_,
+             [&](int part, int thread) { search_block(blocks_[part], buffers_[thread]); });
 }
 
 std::optional<Candidate> examine(const Peak& peak, const Integral& integral,

@@ -54,27 +54,35 @@ struct Candidate {
 /// points are looked for are filled; those above and below are computed where a peak is examined.
 class BlobSearch {
  public:
-  /// `integral` must have a level for each octave.
-  void prepare(const Integral& integral, const SurfOptions& options, int team_size);
-  /// Each member of a team calls this once; then all peaks of at least the threshold are found.
-  void search(const Member& member);
-  /// Appends all peaks by octave, pair, y, x: the same order for any team.
-  void collect(std::vector<Peak>& peaks) const;
+  /// Finds all peaks of at least the threshold. `integral` must have a level for each octave.
+  void search(const Integral& integral, const SurfOptions& options, Team& team, int threads);
+  /// Calls visit(Peak) for each by octave, pair, y, x: the same order for any number of threads.
+  template <class Visit>
+  void for_each_peak(Visit&& visit) const {
+    for (int b = 0; b < blocks_used_; ++b)
+      for (const Peak& peak : blocks_[b].peaks) visit(peak);
+  }
 
  private:
-  struct Part {
+  struct Block {
+    int octave = 0, layer = 0;
+    int begin = 0, end = 0;  // rows
+    std::vector<Peak> peaks;
+  };
+  struct Buffers {
     std::vector<float> ring;  // three rows
     std::vector<int> columns;
-    std::vector<Peak> peaks;
-    std::vector<std::size_t> ends;  // of the peaks of each octave and pair
   };
 
-  void search_pair(int octave, int layer, const Member& member, Part& part) const;
+  void cut_into_blocks(int threads);
+  void search_block(Block& block, Buffers& buffers) const;
 
   const Integral* integral_ = nullptr;
   SurfOptions options_;
   int stride_ = 0;  // of a ring's rows
-  std::vector<Part> parts_;
+  std::vector<Block> blocks_;
+  int blocks_used_ = 0;  // the others keep their room
+  std::vector<Buffers> buffers_;
 };
 
 /// The layer and the 27 values of a peak; nothing when a neighbour is larger.

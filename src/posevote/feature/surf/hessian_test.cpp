@@ -25,13 +25,12 @@ Weights weights_at(int size, int u, int v) {
   return {second(u, v), second(v, u), corner ? ((u > 0) == (v > 0) ? 1 : -1) : 0};
 }
 
-Integral integral_of(const cv::Mat& grey, bool smooth = false, int team_size = 1) {
-  Integral integral;
-  Team team;
-  integral.prepare(grey, smooth, 4, team_size);
-  team.run(team_size, [&](const Member& member) { integral.compute(member); });
-  return integral;
-}
+struct IntegralOf : Integral {
+  explicit IntegralOf(const cv::Mat& grey, bool smooth = false, int threads = 1) {
+    Team team;
+    compute(grey, smooth, 4, team, threads);
+  }
+};
 
 cv::Mat with_margin(const cv::Mat& grey) {
   cv::Mat extended;
@@ -41,7 +40,7 @@ cv::Mat with_margin(const cv::Mat& grey) {
 
 TEST(Integral, IsThePlainSumOfEveryRectangle) {
   const cv::Mat grey = made::texture(5, 3), extended = with_margin(grey);
-  const Integral integral = integral_of(grey);
+  const IntegralOf integral(grey);
   ASSERT_EQ(cv::Size(integral.width(), integral.height()), extended.size());
   for (int y0 = 0; y0 <= extended.rows; y0 += 3)
     for (int y1 = y0; y1 <= extended.rows; y1 += 5)
@@ -54,7 +53,7 @@ TEST(Integral, IsThePlainSumOfEveryRectangle) {
 
 TEST(Integral, SmallSumsStayExactWhenTheTotalOverflows) {
   const cv::Mat white(4200, 4200, CV_8U, cv::Scalar(255));  // 4.5e9 > 2^32
-  const Integral integral = integral_of(white);
+  const IntegralOf integral(white);
   EXPECT_EQ(integral.box(4190, 4190, 4200, 4200), 25500U);
 }
 
@@ -66,7 +65,7 @@ TEST(Integral, SmoothsByTheBinomialFilter) {
     cv::Mat smoothed, exact;
     grey.convertTo(exact, CV_32F);
     cv::sepFilter2D(exact, exact, -1, kernel, kernel, {-1, -1}, 0, cv::BORDER_REPLICATE);
-    const Integral integral = integral_of(grey, true);
+    const IntegralOf integral(grey, true);
     for (int y = 0; y < size.height; ++y)
       for (int x = 0; x < size.width; ++x)
         ASSERT_NEAR(integral.box(x + kMargin, y + kMargin, x + kMargin + 1, y + kMargin + 1),
@@ -75,10 +74,10 @@ TEST(Integral, SmoothsByTheBinomialFilter) {
 }
 
 TEST(Integral, IsTheSameForAnyTeamAndAtEveryLevel) {
-  const cv::Mat grey = made::texture(71, 53);
-  const Integral alone = integral_of(grey, true, 1);
+  const cv::Mat grey = made::texture(71, 153);
+  const IntegralOf alone(grey, true, 1);
   for (const int team : {1, 2, 3, 7, 64}) {
-    const Integral shared = integral_of(grey, true, team);
+    const IntegralOf shared(grey, true, team);
     for (int level = 0; level < 4; ++level) {
       const simd::SumsView view = shared.view(level);
       ASSERT_EQ(view.width, alone.width() >> level);
@@ -92,11 +91,11 @@ TEST(Integral, IsTheSameForAnyTeamAndAtEveryLevel) {
 
 TEST(Integral, KeepsNothingOfALargerPictureBefore) {
   Integral integral;
+  Team team;
   for (const cv::Size size : {cv::Size(90, 80), cv::Size(20, 30), cv::Size(1, 1)}) {
     const cv::Mat grey = made::texture(size.width, size.height);
-    integral.prepare(grey, true, 3, 1);
-    integral.compute(Member(0, 1, nullptr));
-    const Integral fresh = integral_of(grey, true);
+    integral.compute(grey, true, 3, team, 1);
+    const IntegralOf fresh(grey, true);
     for (int level = 0; level < 3; ++level)
       for (int y = 0; y <= fresh.view(level).height; ++y)
         for (int x = 0; x <= fresh.view(level).width; ++x)
@@ -122,7 +121,7 @@ float determinant_at(const cv::Mat& extended, int size, int x, int y) {
 
 TEST(HessianPatch, IsTheWeightedSumOfItsDefinition) {
   const cv::Mat grey = made::texture(80, 70), extended = with_margin(grey);
-  const Integral integral = integral_of(grey);
+  const IntegralOf integral(grey);
   for (const int size : {9, 15, 21, 27, 39, 51})
     for (const cv::Point at : {cv::Point(40, 35), cv::Point(0, 0), cv::Point(79, 69)}) {
       float found[9];
@@ -134,16 +133,14 @@ TEST(HessianPatch, IsTheWeightedSumOfItsDefinition) {
 }
 
 std::vector<Candidate> search(const cv::Mat& grey, const SurfOptions& options, int team_size = 1) {
-  const Integral integral = integral_of(grey, options.smooth);
+  const IntegralOf integral(grey, options.smooth);
   BlobSearch blobs;
   Team team;
-  blobs.prepare(integral, options, team_size);
-  team.run(team_size, [&](const Member& member) { blobs.search(member); });
-  std::vector<Peak> peaks;
-  blobs.collect(peaks);
+  blobs.search(integral, options, team, team_size);
   std::vector<Candidate> all;
-  for (const Peak& peak : peaks)
+  blobs.for_each_peak([&](const Peak& peak) {
     if (const auto candidate = examine(peak, integral, options)) all.push_back(*candidate);
+  });
   std::ranges::sort(all, {},
                     [](const Candidate& c) { return std::tuple(c.octave, c.layer, c.y, c.x); });
   return all;
@@ -151,7 +148,7 @@ std::vector<Candidate> search(const cv::Mat& grey, const SurfOptions& options, i
 
 // Every sample of every octave against its 26 neighbours, without pairs, rings or peaks.
 std::vector<Candidate> search_plainly(const cv::Mat& grey, const SurfOptions& options) {
-  const Integral integral = integral_of(grey, options.smooth);
+  const IntegralOf integral(grey, options.smooth);
   std::vector<Candidate> all;
   for (int octave = 0; octave < options.octaves; ++octave)
     for (int layer = 1; layer <= options.layers; ++layer) {
@@ -211,7 +208,7 @@ TEST(BlobSearch, IsTheSameForAnyTeam) {
 }
 
 std::vector<Keypoint> find_blobs(const cv::Mat& grey, const SurfOptions& options) {
-  const Integral integral = integral_of(grey);
+  const IntegralOf integral(grey);
   std::vector<Keypoint> blobs;
   for (const Candidate& candidate : search(grey, options))
     if (const auto blob = refine(candidate, integral)) blobs.push_back(*blob);
@@ -261,7 +258,7 @@ TEST(BlobSearch, ThresholdLeavesOutExactlyTheWeaker) {
 }
 
 TEST(Refine, RefusesAMaximumThatLiesElsewhere) {
-  const Integral integral = integral_of(made::texture(60, 50));
+  const IntegralOf integral(made::texture(60, 50));
   Candidate candidate{0, 1, 30 + kMargin, 25 + kMargin, {}};
   // A ridge along the diagonal that hardly falls: the quadric's top is 4.5 steps away in x and y.
   for (auto& plane : candidate.around)

@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <thread>
 
 namespace posevote::surf {
 namespace {
+
+// Where threads share the work. Their pixels stay in the L2 cache; the sums of a block's columns
+// fit 16 bits.
+constexpr int kBlockRows = 64;
 
 // Rows an odd number of cache lines apart: rows 4096 bytes apart would share their cache sets.
 std::ptrdiff_t padded_stride(int width) {
@@ -32,9 +37,14 @@ void smooth_whole_row(const cv::Mat& grey, int y, std::uint16_t* scratch, std::u
   simd::smooth_row(rows, inner_end - edge, scratch, out + edge);
 }
 
+// Until `value` is `wanted`: whoever raises it is at work.
+void await(const std::atomic<int>& value, int wanted) {
+  while (value.load(std::memory_order_acquire) != wanted) std::this_thread::yield();
+}
+
 }  // namespace
 
-void Integral::prepare(const cv::Mat& grey, bool smooth, int levels, int team_size) {
+void Integral::prepare(const cv::Mat& grey, bool smooth, int levels, int threads) {
   grey_ = grey;
   smooth_ = smooth;
   levels_.resize(levels);
@@ -45,19 +55,17 @@ void Integral::prepare(const cv::Mat& grey, bool smooth, int levels, int team_si
     level.stride = padded_stride(level.width);
     level.sums.resize(static_cast<std::size_t>(level.stride) * (level.height + 1) + simd::kSlack);
   }
-  pixel_stride_ = team_size > 1 ? width() : 0;
-  pixels_.resize(static_cast<std::size_t>(pixel_stride_) * height() + width());
-  parts_.resize(team_size);
-  for (Part& part : parts_) {
-    part.columns.resize(width());
-    part.above.resize(width());
-    part.scratch.resize(grey.cols + 36);
+  blocks_ = threads > 1 ? (height() + kBlockRows - 1) / kBlockRows : 1;
+  buffers_.resize(threads);
+  for (Buffers& buffers : buffers_) {
+    buffers.pixels.resize(static_cast<std::size_t>(width()) * (blocks_ > 1 ? kBlockRows : 1));
+    buffers.columns.resize(width());
+    buffers.scratch.resize(grey.cols + 36);
   }
 }
 
-void Integral::fill_row(int y, std::uint16_t* scratch) {
+void Integral::fill_row(int y, std::uint16_t* scratch, std::uint8_t* row) const {
   const int source = std::clamp(y - kMargin, 0, grey_.rows - 1);
-  std::uint8_t* row = pixels(y);
   std::uint8_t* inner = row + kMargin;
   if (smooth_)
     smooth_whole_row(grey_, source, scratch, inner);
@@ -78,38 +86,54 @@ void Integral::fill_levels(int y) {
   }
 }
 
-void Integral::compute(const Member& member) {
-  const int begin = member.begin(height()), end = member.end(height());
-  Part& part = parts_[member.index()];
-  const bool alone = member.count() == 1;
-  if (!alone) {
-    std::ranges::fill(part.columns, 0U);
-    for (int y = begin; y < end; ++y) {
-      fill_row(y, part.scratch.data());
-      const std::uint8_t* row = pixels(y);
-      for (int x = 0; x < width(); ++x) part.columns[x] += row[x];
-    }
-    member.wait();
+void Integral::sum_row(int y, const std::uint8_t* pixels) {
+  std::uint32_t* row = levels_[0].row(y + 1);
+  row[0] = 0;
+  simd::integral_row(pixels, levels_[0].row(y) + 1, width(), row + 1);
+  fill_levels(y + 1);
+}
+
+void Integral::sum_all(Buffers& buffers) {
+  for (int y = 0; y < height(); ++y) {
+    fill_row(y, buffers.scratch.data(), buffers.pixels.data());
+    sum_row(y, buffers.pixels.data());
   }
-  std::uint32_t sum = 0;
-  for (int x = 0; x < width(); ++x) {
-    for (int k = 0; k < member.index(); ++k) sum += parts_[k].columns[x];
-    part.above[x] = sum;
-  }
-  if (begin == 0) {
-    std::fill_n(levels_[0].row(0), width() + 1, 0U);
-    fill_levels(0);
-  }
-  const std::uint32_t* above = part.above.data();
+}
+
+// All sums need those above them: the last row of a block is found first, from the sums of the
+// columns, so that the next block is not kept waiting.
+void Integral::sum_block(int number, Buffers& buffers) {
+  const int begin = number * kBlockRows, end = std::min(begin + kBlockRows, height());
+  const auto pixels = [&](int y) {
+    return &buffers.pixels[static_cast<std::size_t>(y - begin) * width()];
+  };
+  std::ranges::fill(buffers.columns, std::uint16_t{0});
   for (int y = begin; y < end; ++y) {
-    if (alone) fill_row(y, part.scratch.data());
-    std::uint32_t* row = levels_[0].row(y + 1);
-    row[0] = 0;
-    simd::integral_row(pixels(y), above, width(), row + 1);
-    fill_levels(y + 1);
-    above = row + 1;
+    fill_row(y, buffers.scratch.data(), pixels(y));
+    const std::uint8_t* row = pixels(y);
+    for (int x = 0; x < width(); ++x) buffers.columns[x] += row[x];
   }
-  member.wait();
+  await(blocks_begun_, number);
+  const std::uint32_t* above = levels_[0].row(begin) + 1;
+  std::uint32_t* last = levels_[0].row(end);
+  last[0] = 0;
+  std::uint32_t sum = 0;
+  for (int x = 0; x < width(); ++x) last[x + 1] = above[x] + (sum += buffers.columns[x]);
+  blocks_begun_.store(number + 1, std::memory_order_release);
+  for (int y = begin; y + 1 < end; ++y) sum_row(y, pixels(y));
+  fill_levels(end);
+}
+
+void Integral::compute(const cv::Mat& grey, bool smooth, int levels, Team& team, int threads) {
+  prepare(grey, smooth, levels, threads);
+  std::fill_n(levels_[0].row(0), width() + 1, 0U);
+  fill_levels(0);
+  blocks_begun_ = 0;
+  if (blocks_ == 1)
+    sum_all(buffers_[0]);
+  else
+    team.share(threads, blocks_, [&](int part, int thread) { sum_block(part, buffers_[thread]); });
+  grey_.release();
 }
 
 }  // namespace posevote::surf

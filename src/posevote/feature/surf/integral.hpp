@@ -1,6 +1,7 @@
 // Sums over rectangles of a picture in constant time (Bay et al. 2008, section 3.1).
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -22,11 +23,9 @@ inline constexpr int kMargin = 32;
 /// the sums of 2^k x 2^k pixels of the summed one. What is left over at the right and below is cut.
 class Integral {
  public:
-  /// Makes room; keeps the buffers of earlier pictures. `grey`: CV_8UC1, not empty, may be shared.
-  void prepare(const cv::Mat& grey, bool smooth, int levels, int team_size);
-  /// Each member of a team calls this once after one of them has called `prepare`; the sums are
-  /// ready when all have returned from it.
-  void compute(const Member& member);
+  /// The same for any number of threads. `grey`: CV_8UC1, not empty, not kept. Keeps the buffers of
+  /// earlier pictures.
+  void compute(const cv::Mat& grey, bool smooth, int levels, Team& team, int threads);
 
   [[nodiscard]] int width() const noexcept { return levels_[0].width; }    ///< px, with margins
   [[nodiscard]] int height() const noexcept { return levels_[0].height; }  ///< px, with margins
@@ -50,23 +49,27 @@ class Integral {
     std::vector<std::uint32_t> sums;
     [[nodiscard]] std::uint32_t* row(int y) { return &sums[y * stride]; }
   };
-  struct Part {
-    std::vector<std::uint32_t> columns;  // sums of the member's rows
-    std::vector<std::uint32_t> above;    // the sums above its first row
+  // Of a thread.
+  struct Buffers {
+    std::vector<std::uint8_t> pixels;    // of a block, or of one row
+    std::vector<std::uint16_t> columns;  // sums of the block's rows
     std::vector<std::uint16_t> scratch;
   };
 
-  void fill_row(int y, std::uint16_t* scratch);
+  void prepare(const cv::Mat& grey, bool smooth, int levels, int threads);
+  void fill_row(int y, std::uint16_t* scratch, std::uint8_t* row) const;
   void fill_levels(int y);
-  // A single member needs no more than one row at a time.
-  [[nodiscard]] std::uint8_t* pixels(int y) { return &pixels_[y * pixel_stride_]; }
+  void sum_row(int y, const std::uint8_t* pixels);
+  void sum_all(Buffers& buffers);
+  void sum_block(int number, Buffers& buffers);
 
   cv::Mat grey_;
   bool smooth_ = false;
-  std::ptrdiff_t pixel_stride_ = 0;
-  std::vector<std::uint8_t> pixels_;
+  int blocks_ = 1;
+  std::atomic<int> blocks_begun_ =
+      0;  // the row of the sums above the block of this number is ready
   std::vector<Level> levels_ = std::vector<Level>(1);
-  std::vector<Part> parts_;
+  std::vector<Buffers> buffers_;
 };
 
 }  // namespace posevote::surf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "posevote/feature/picture.hpp"
 
@@ -17,55 +18,49 @@ std::uint32_t index_of(std::uint64_t key) {
   return static_cast<std::uint32_t>(key);
 }
 
+// Classes of strength, a 32th of an octave each: the larger, the stronger.
+constexpr int kClassBits = 13, kClasses = 1 << kClassBits;
+int class_of(const Peak& peak) {
+  return static_cast<int>(std::bit_cast<std::uint32_t>(peak.response) >> (31 - kClassBits));
+}
+
 }  // namespace
 
-void Selector::prepare(const Integral& integral, const SurfOptions& surf, const Options& options) {
-  integral_ = &integral;
-  surf_ = surf;
-  options_ = options;
-  peaks_.clear();
-  batch_.clear();
+void Selector::count_peaks(const BlobSearch& search) {
+  counts_.assign(kClasses, 0);
+  search.for_each_peak([&](const Peak& peak) { ++counts_[class_of(peak)]; });
+  next_class_ = kClasses;
 }
 
-void Selector::begin() {
-  kept_.clear();
-  keys_.clear();
-  for (std::size_t i = 0; i < peaks_.size(); ++i) keys_.push_back(key_of(peaks_[i].response, i));
-}
-
-// The strongest of what is left, by index: in scan order the sums of one are in the cache for the
-// next.
-void Selector::next_batch() {
+// The strongest of what is left, in the order of the scan: the sums of one are in the cache for the
+// next. False when nothing is left or wanted.
+bool Selector::next_batch(const BlobSearch& search) {
   batch_.clear();
-  std::size_t size = keys_.size();
-  const auto limit = static_cast<std::size_t>(options_.max_features);
-  if (limit > 0 && !options_.spread) {
-    if (kept_.size() >= limit) return;
-    const std::size_t missing = limit - kept_.size();
-    size = std::min(size, missing * 2 + 16);  // about half are refused
+  int wanted = std::numeric_limits<int>::max(), found = 0;
+  if (options_.max_features > 0 && !options_.spread) {
+    const int missing = options_.max_features - static_cast<int>(kept_.size());
+    if (missing <= 0) return false;
+    wanted = missing > wanted / 2 - 16 ? wanted : missing * 2 + 16;  // about half are refused
   }
-  if (size < keys_.size()) std::nth_element(keys_.begin(), keys_.begin() + size, keys_.end());
-  for (std::size_t i = 0; i < size; ++i) batch_.push_back(index_of(keys_[i]));
-  keys_.erase(keys_.begin(), keys_.begin() + size);
-  std::ranges::sort(batch_);
+  int first = next_class_;
+  while (first > 0 && found < wanted) found += counts_[--first];
+  if (found == 0) return false;
+  search.for_each_peak([&](const Peak& peak) {
+    const int of = class_of(peak);
+    if (of >= first && of < next_class_) batch_.push_back(peak);
+  });
+  next_class_ = first;
   examined_.resize(batch_.size());
+  return true;
 }
 
-void Selector::examine_batch(const Member& member) {
-  const int count = static_cast<int>(batch_.size());
-  for (int i = member.begin(count); i < member.end(count); ++i) {
-    examined_[i].scale = 0;
-    const auto candidate = examine(peaks_[batch_[i]], *integral_, surf_);
-    if (!candidate) continue;
-    const auto keypoint = refine(*candidate, *integral_);
-    if (keypoint && is_inside_mask(options_.mask, keypoint->x, keypoint->y))
-      examined_[i] = *keypoint;
-  }
-}
-
-void Selector::keep_batch() {
-  for (const Keypoint& keypoint : examined_)
-    if (keypoint.scale > 0) kept_.push_back(keypoint);
+Keypoint Selector::examine_one(const Peak& peak, const Integral& integral,
+                               const SurfOptions& surf) const {
+  const auto candidate = examine(peak, integral, surf);
+  if (!candidate) return {};
+  const auto keypoint = refine(*candidate, integral);
+  return keypoint && is_inside_mask(options_.mask, keypoint->x, keypoint->y) ? *keypoint
+                                                                             : Keypoint{};
 }
 
 // The strongest of every cell first, then the second of every cell, and so on; four key points are
@@ -112,29 +107,21 @@ void Selector::finish() {
   }
 }
 
-// The leader's steps; when one fails, the others find the batch empty and end.
-void Selector::lead(void (Selector::*step)()) {
-  try {
-    (this->*step)();
-  } catch (...) {
-    batch_.clear();
-    throw;
+const std::vector<Keypoint>& Selector::select(const BlobSearch& search, const Integral& integral,
+                                              const SurfOptions& surf, const Options& options,
+                                              Team& team, int threads) {
+  options_ = options;
+  kept_.clear();
+  count_peaks(search);
+  while (next_batch(search)) {
+    team.share_ranges(threads, static_cast<int>(batch_.size()), [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) examined_[i] = examine_one(batch_[i], integral, surf);
+    });
+    for (const Keypoint& keypoint : examined_)
+      if (keypoint.scale > 0) kept_.push_back(keypoint);
   }
-}
-
-void Selector::select(const Member& member) {
-  const bool leads = member.index() == 0;
-  if (leads) lead(&Selector::begin);
-  for (;;) {
-    if (leads) lead(&Selector::next_batch);
-    member.wait();
-    if (batch_.empty()) break;
-    examine_batch(member);
-    member.wait();
-    if (leads) lead(&Selector::keep_batch);
-  }
-  if (leads) finish();
-  member.wait();
+  finish();
+  return keypoints_;
 }
 
 }  // namespace posevote::surf

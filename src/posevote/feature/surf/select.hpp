@@ -20,30 +20,25 @@ class Selector {
     cv::Size size;         ///< of the picture, px
   };
 
-  /// `integral` must outlive the use; `peaks` may be filled later, before the first `select`.
-  void prepare(const Integral& integral, const SurfOptions& surf, const Options& options);
-  [[nodiscard]] std::vector<Peak>& peaks() noexcept { return peaks_; }
-  /// Each member of a team calls this once, after all have found the peaks.
-  void select(const Member& member);
-  /// After that: sorted by `comes_before`, the same for any team and order of the peaks' finding.
-  [[nodiscard]] const std::vector<Keypoint>& keypoints() const noexcept { return keypoints_; }
+  /// Of the peaks that `search` found in `integral`. Sorted by `comes_before`, the same for any
+  /// number of threads.
+  const std::vector<Keypoint>& select(const BlobSearch& search, const Integral& integral,
+                                      const SurfOptions& surf, const Options& options, Team& team,
+                                      int threads);
 
  private:
-  void lead(void (Selector::*step)());
-  void begin();
-  void next_batch();
-  void examine_batch(const Member& member);
-  void keep_batch();
+  void count_peaks(const BlobSearch& search);
+  bool next_batch(const BlobSearch& search);
+  [[nodiscard]] Keypoint examine_one(const Peak& peak, const Integral& integral,
+                                     const SurfOptions& surf) const;
   void finish();
   void spread();
 
-  const Integral* integral_ = nullptr;
-  SurfOptions surf_;
   Options options_;
-  std::vector<Peak> peaks_;
-  std::vector<std::uint64_t> keys_;   // of all peaks not yet examined; see key_of
-  std::vector<std::uint32_t> batch_;  // indices of peaks
-  std::vector<Keypoint> examined_;    // one per index in the batch; scale 0: refused
+  std::vector<int> counts_;  // peaks of each class of strength; see class_of
+  int next_class_ = 0;       // those from here on have been examined
+  std::vector<Peak> batch_;
+  std::vector<Keypoint> examined_;  // one per peak of the batch; scale 0: refused
   std::vector<Keypoint> kept_, keypoints_;
   std::vector<std::uint64_t> order_;
   std::vector<int> taken_;

@@ -36,28 +36,21 @@ void Workspace::load(const cv::Mat& image, const FeatureOptions& options) {
   grey_ = doubled_;
 }
 
-void Workspace::find(const cv::Mat& mask, const FeatureOptions& options) {
+const std::vector<Keypoint>& Workspace::find(const cv::Mat& mask, const FeatureOptions& options) {
   Stopwatch watch;
-  const int count = team_size(options.surf);
+  const int threads = team_size(options.surf);
   Selector::Options selection{options.max_features, options.surf.spread, mask, grey_.size()};
   if (!mask.empty() && mask.size() != grey_.size()) {
     cv::resize(mask, mask_, grey_.size(), 0, 0, cv::INTER_NEAREST);
     selection.mask = mask_;
   }
-  integral_.prepare(grey_, options.surf.smooth, options.surf.octaves, count);
-  search_.prepare(integral_, options.surf, count);
-  selector_.prepare(integral_, options.surf, selection);
-  team_.run(count, [&](const Member& member) {
-    const bool leads = member.index() == 0;
-    integral_.compute(member);
-    if (leads) times_.integral = watch.lap();
-    search_.search(member);
-    member.wait();
-    if (leads) times_.hessian = watch.lap();
-    if (leads) search_.collect(selector_.peaks());
-    selector_.select(member);
-    if (leads) times_.suppression = watch.lap();
-  });
+  integral_.compute(grey_, options.surf.smooth, options.surf.octaves, team_, threads);
+  times_.integral = watch.lap();
+  search_.search(integral_, options.surf, team_, threads);
+  times_.hessian = watch.lap();
+  const auto& found = selector_.select(search_, integral_, options.surf, selection, team_, threads);
+  times_.suppression = watch.lap();
+  return found;
 }
 
 // By squares of 32 x 32 px, row by row: the sums of one key point are in the cache for the next.
@@ -86,13 +79,18 @@ cv::Mat Workspace::describe_all(std::vector<Keypoint>& keypoints, const FeatureO
   if (with_descriptors) descriptors.create(count, kDescriptorSize, CV_32F);
   Stopwatch watch;
   sort_by_place(keypoints);
-  team_.run(team_size(options.surf), [&](const Member& member) {
-    if (!options.surf.upright)
-      for (int k = member.begin(count); k < member.end(count); ++k)
-        keypoints[order_[k]].angle = orientation(integral_, keypoints[order_[k]]);
-    if (member.index() == 0) times_.orientation = watch.lap();
-    if (!with_descriptors) return;
-    for (int k = member.begin(count); k < member.end(count); ++k)
+  const int threads = team_size(options.surf);
+  if (!options.surf.upright) {
+    angles_.resize(keypoints.size());  // by place: threads do not write to the same cache lines
+    team_.share_ranges(threads, count, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) angles_[k] = orientation(integral_, keypoints[order_[k]]);
+    });
+    for (int k = 0; k < count; ++k) keypoints[order_[k]].angle = angles_[k];
+  }
+  times_.orientation = watch.lap();
+  if (!with_descriptors) return descriptors;
+  team_.share_ranges(threads, count, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k)
       surf::describe(integral_, keypoints[order_[k]], descriptors.ptr<float>(order_[k]));
   });
   times_.descriptor = watch.lap();
@@ -103,11 +101,11 @@ Features Workspace::extract(const cv::Mat& image, const cv::Mat& mask,
                             const FeatureOptions& options, bool with_descriptors) {
   times_ = {};
   check_mask(image, mask);
+  team_.wake(team_size(options.surf));
   load(image, options);
   Features features;
   if (grey_.empty()) return features;
-  find(mask, options);
-  features.keypoints = selector_.keypoints();
+  features.keypoints = find(mask, options);
   features.descriptors = describe_all(features.keypoints, options, with_descriptors);
   if (options.surf.double_size) scale_keypoints(features.keypoints, 0.5F);
   grey_.release();
@@ -118,9 +116,7 @@ cv::Mat Workspace::describe(const cv::Mat& image, std::vector<Keypoint>& keypoin
                             const FeatureOptions& options) {
   load(image, options);
   if (grey_.empty() || keypoints.empty()) return {};
-  const int team = team_size(options.surf);
-  integral_.prepare(grey_, options.surf.smooth, 1, team);
-  team_.run(team, [&](const Member& member) { integral_.compute(member); });
+  integral_.compute(grey_, options.surf.smooth, 1, team_, team_size(options.surf));
   if (options.surf.double_size) scale_keypoints(keypoints, 2);
   cv::Mat descriptors = describe_all(keypoints, options, true);
   if (options.surf.double_size) scale_keypoints(keypoints, 0.5F);

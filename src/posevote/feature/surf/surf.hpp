@@ -14,7 +14,7 @@
 
 namespace posevote::surf {
 
-/// Wall time of each step of one member of the team, ms. `hessian` ends with the peaks of each pair
+/// Wall time of each step, ms. `hessian` ends with the peaks of each pair
 /// of layers, `suppression` with the key points' places and scales.
 struct StageTimes {
   double integral = 0, hessian = 0, suppression = 0, orientation = 0, descriptor = 0;
@@ -35,7 +35,7 @@ class Workspace {
 
  private:
   void load(const cv::Mat& image, const FeatureOptions& options);
-  void find(const cv::Mat& mask, const FeatureOptions& options);
+  const std::vector<Keypoint>& find(const cv::Mat& mask, const FeatureOptions& options);
   void sort_by_place(const std::vector<Keypoint>& keypoints);
   [[nodiscard]] cv::Mat describe_all(std::vector<Keypoint>& keypoints,
                                      const FeatureOptions& options, bool with_descriptors);
@@ -45,7 +45,8 @@ class Workspace {
   Integral integral_;
   BlobSearch search_;
   Selector selector_;
-  std::vector<int> order_, tile_ends_;
+  std::vector<int> order_, tile_ends_;  // of the key points; see sort_by_place
+  std::vector<float> angles_;
   StageTimes times_;
 };
 

@@ -1,99 +1,91 @@
 #include "posevote/feature/surf/team.hpp"
 
 #include <chrono>
+#include <utility>
+
+#include "posevote/core/error.hpp"
 
 namespace posevote::surf {
 namespace {
 
+constexpr int kBits = 24;
+constexpr std::uint64_t kMask = (1 << kBits) - 1;
+
+int next_of(std::uint64_t ticket) {
+  return static_cast<int>(ticket & kMask);
+}
+int parts_of(std::uint64_t ticket) {
+  return static_cast<int>(ticket >> kBits & kMask);
+}
+
 // Until `value` is no longer `old`.
-template <class T>
-void await_change(const std::atomic<T>& value, T old) {
-  constexpr std::chrono::microseconds kLookOut(50);
+void await_change(const std::atomic<unsigned>& value, unsigned old) {
+  constexpr std::chrono::microseconds kLookOut(100);
   const auto start = std::chrono::steady_clock::now();
   while (value.load(std::memory_order_acquire) == old) {
-    if (std::chrono::steady_clock::now() - start > kLookOut) {
+    if (std::chrono::steady_clock::now() - start < kLookOut)
+      std::this_thread::yield();
+    else
       value.wait(old, std::memory_order_acquire);
-      continue;
-    }
-    std::this_thread::yield();
   }
 }
 
 }  // namespace
 
-void Meeting::reset(int count) {
-  count_ = count;
-  missing_ = count;
-}
-
-// True for the last one, who lets the others go.
-bool Meeting::arrive() {
-  if (missing_.fetch_sub(1, std::memory_order_acq_rel) > 1) return false;
-  missing_.store(count_.load(std::memory_order_relaxed), std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_acq_rel);
-  round_.notify_all();
-  return true;
-}
-
-void Meeting::arrive_and_wait() {
-  const unsigned round = round_.load(std::memory_order_relaxed);
-  if (!arrive()) await_change(round_, round);
-}
-
-void Meeting::arrive_and_drop() {
-  count_.fetch_sub(1, std::memory_order_acq_rel);
-  arrive();
-}
-
 Team::~Team() {
-  for (const auto& helper : helpers_) {
-    helper->end = true;
-    helper->turn.fetch_add(1, std::memory_order_release);
-    helper->turn.notify_one();
-    helper->thread.join();
+  end_ = true;
+  turn_.fetch_add(1, std::memory_order_release);
+  turn_.notify_all();
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+void Team::take_parts(int thread) {
+  std::uint64_t ticket = ticket_.load(std::memory_order_acquire);
+  while (next_of(ticket) < parts_of(ticket)) {
+    if (!ticket_.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel,
+                                       std::memory_order_acquire))
+      continue;
+    try {
+      call_(work_, next_of(ticket), thread);
+    } catch (...) {
+      const std::lock_guard lock(error_mutex_);
+      error_ = std::current_exception();
+    }
+    done_.fetch_add(1, std::memory_order_release);
+    ticket = ticket_.load(std::memory_order_acquire);
   }
 }
 
-std::exception_ptr Team::take_part(int index) {
-  try {
-    call_(work_, Member(index, count_, &meeting_));
-    return nullptr;
-  } catch (...) {
-    meeting_.arrive_and_drop();
-    return std::current_exception();
+void Team::serve(int thread) {
+  for (unsigned turn = 0; !end_;) {
+    await_change(turn_, turn);
+    turn = turn_.load(std::memory_order_acquire);
+    if (thread < threads_.load(std::memory_order_relaxed)) take_parts(thread);
   }
 }
 
-void Team::serve(Helper& helper, int index) {
-  for (unsigned turn = 0;; ++turn) {
-    helper.turn.wait(turn, std::memory_order_acquire);
-    if (helper.end) return;
-    helper.error = take_part(index);
-    if (working_.fetch_sub(1, std::memory_order_acq_rel) == 1) working_.notify_one();
-  }
+void Team::wake(int threads) {
+  while (static_cast<int>(helpers_.size()) < threads - 1)
+    helpers_.emplace_back(&Team::serve, this, static_cast<int>(helpers_.size()) + 1);
+  if (threads < 2) return;
+  turn_.fetch_add(1, std::memory_order_release);
+  turn_.notify_all();
 }
 
-void Team::run_on(int count, const void* work, Call call) {
-  while (static_cast<int>(helpers_.size()) < count - 1) {
-    auto helper = std::make_unique<Helper>();
-    helper->thread =
-        std::thread(&Team::serve, this, std::ref(*helper), static_cast<int>(helpers_.size()) + 1);
-    helpers_.push_back(std::move(helper));
-  }
-  count_ = count;
+void Team::share_with(int threads, int parts, const void* work, Call call) {
+  if (parts < 0 || static_cast<std::uint64_t>(parts) > kMask)
+    throw Error(ErrorCode::invalid_argument, "too many parts for a team");
   work_ = work;
   call_ = call;
-  meeting_.reset(count);
-  working_ = count - 1;
-  for (int i = 0; i < count - 1; ++i) {
-    helpers_[i]->turn.fetch_add(1, std::memory_order_release);
-    helpers_[i]->turn.notify_one();
-  }
-  std::exception_ptr error = take_part(0);
-  for (int left = working_; left > 0; left = working_) await_change(working_, left);
-  for (int i = 0; i < count - 1; ++i)
-    if (!error) error = helpers_[i]->error;
-  if (error) std::rethrow_exception(error);
+  threads_.store(threads, std::memory_order_relaxed);
+  done_.store(0, std::memory_order_relaxed);
+  const std::uint64_t step = (ticket_.load(std::memory_order_relaxed) >> 2 * kBits) + 1;
+  ticket_.store(step << 2 * kBits | static_cast<std::uint64_t>(parts) << kBits,
+                std::memory_order_release);
+  wake(threads);
+  take_parts(0);
+  while (done_.load(std::memory_order_acquire) < parts) std::this_thread::yield();
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
 }  // namespace posevote::surf

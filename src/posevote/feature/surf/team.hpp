@@ -1,55 +1,21 @@
-// A few threads that work through the same steps together.
+// A few threads that share the parts of one step after another.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <exception>
-#include <memory>
+#include <mutex>
 #include <thread>
 #include <vector>
 
 namespace posevote::surf {
 
-/// Where the members of a team wait for each other. Looks out for the others for some
-/// microseconds before it sleeps: being woken takes as long as a step on a small picture.
-class Meeting {
- public:
-  void reset(int count);
-  /// Returns when all have come here.
-  void arrive_and_wait();
-  /// Comes here for the last time; the others go on without this one.
-  void arrive_and_drop();
-
- private:
-  bool arrive();
-  std::atomic<int> count_ = 1, missing_ = 1;
-  std::atomic<unsigned> round_ = 0;
-};
-
-/// One member of a team: which part is its own, and where it waits for the others.
-class Member {
- public:
-  Member(int index, int count, Meeting* meeting)
-      : index_(index), count_(count), meeting_(meeting) {}
-
-  [[nodiscard]] int index() const noexcept { return index_; }
-  [[nodiscard]] int count() const noexcept { return count_; }
-  /// First index of the part number `part` (0 ... count) of [0, total).
-  [[nodiscard]] int begin_of(int part, int total) const noexcept {
-    return static_cast<int>(static_cast<long long>(total) * part / count_);
-  }
-  [[nodiscard]] int begin(int total) const noexcept { return begin_of(index_, total); }
-  [[nodiscard]] int end(int total) const noexcept { return begin_of(index_ + 1, total); }
-  /// Returns when all members have come here.
-  void wait() const {
-    if (count_ > 1) meeting_->arrive_and_wait();
-  }
-
- private:
-  int index_, count_;
-  Meeting* meeting_;
-};
-
 /// Keeps its threads, asleep, from one call to the next. One caller at a time.
+///
+/// Whoever has time takes the next part: a thread that wakes late, or gets no processor, holds
+/// nobody up. Between two steps threads look out for work for some microseconds before they sleep:
+/// being woken takes as long as a step on a small picture.
 class Team {
  public:
   Team() = default;
@@ -57,35 +23,54 @@ class Team {
   Team& operator=(const Team&) = delete;
   ~Team();
 
-  /// Runs `work(member)` on `count` threads, one of them the caller's, and returns when all have
-  /// ended. When `work` throws, the others go on without that member, and one of the exceptions is
-  /// thrown here.
+  /// Wakes the threads for calls of `share` that follow soon.
+  void wake(int threads);
+
+  /// Calls `work(part, thread)` once for every part in [0, parts), at most 2^24, and returns when
+  /// all have returned. Parts are begun in ascending order, on at most `threads` threads, one of
+  /// them the caller's; no two calls with the same `thread` in [0, threads) overlap. When calls
+  /// throw, the others are made all the same, and one of the exceptions is thrown here.
   template <class Work>
-  void run(int count, const Work& work) {
-    if (count <= 1) return work(Member(0, 1, nullptr));
-    run_on(count, &work,
-           [](const void* of, const Member& member) { (*static_cast<const Work*>(of))(member); });
+  void share(int threads, int parts, const Work& work) {
+    if (threads > 1) {
+      share_with(threads, parts, &work, [](const void* of, int part, int thread) {
+        (*static_cast<const Work*>(of))(part, thread);
+      });
+      return;
+    }
+    for (int part = 0; part < parts; ++part) work(part, 0);
+  }
+
+  /// Calls `work(begin, end)` for ranges that make up [0, total).
+  template <class Work>
+  void share_ranges(int threads, int total, const Work& work) {
+    constexpr int kLeast = 32;
+    if (threads == 1) return work(0, total);
+    const int parts = std::clamp(total / kLeast, std::min(total, 1), 16 * threads);
+    const auto begin = [&](int part) {
+      return static_cast<int>(static_cast<std::int64_t>(total) * part / parts);
+    };
+    share(threads, parts, [&](int part, int) { work(begin(part), begin(part + 1)); });
   }
 
  private:
-  using Call = void (*)(const void* work, const Member& member);
-  struct Helper {
-    std::atomic<unsigned> turn = 0;  // one more: there is work
-    bool end = false;
-    std::exception_ptr error;
-    std::thread thread;
-  };
+  using Call = void (*)(const void* work, int part, int thread);
 
-  void run_on(int count, const void* work, Call call);
-  std::exception_ptr take_part(int index);
-  void serve(Helper& helper, int index);
+  void share_with(int threads, int parts, const void* work, Call call);
+  void serve(int thread);
+  void take_parts(int thread);
 
-  std::vector<std::unique_ptr<Helper>> helpers_;
-  Meeting meeting_;
-  std::atomic<int> working_ = 0;
-  int count_ = 0;
+  // The number of the step, of its parts and of the next part, in one: 16, 24 and 24 bits. Only who
+  // has taken a part may look at `work_` and `call_`, for until it is done they stay.
+  std::atomic<std::uint64_t> ticket_ = 0;
+  std::atomic<int> done_ = 0, threads_ = 0;
+  std::atomic<unsigned> turn_ = 0;  // one more: there is something to do
+  std::atomic<bool> end_ = false;
   const void* work_ = nullptr;
   Call call_ = nullptr;
+  std::mutex error_mutex_;
+  std::exception_ptr error_;
+  std::vector<std::thread> helpers_;
 };
 
 }  // namespace posevote::surf

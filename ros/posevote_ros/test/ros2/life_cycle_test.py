@@ -78,12 +78,12 @@ class LifeCycleTest(unittest.TestCase):
             infos = self.robot.collect(demo.NODE + "/database", DatabaseInfo, demo.LATCHED)
             self.assertTrue(self.robot.wait_until(lambda: infos))
             self.assertEqual([o.object for o in infos[0].objects], ["poster"])
-            answer = self.robot.ask(detections, demo.image(demo.SCENE))
+            answer = self.robot.ask(detections, demo.image(demo.SCENE, "mono8"))
             self.assertEqual([d.object for d in answer.detections], ["poster"])
             self.change_state(demo.DEACTIVATE, demo.INACTIVE)
             self.assertTrue(self.robot.wait_until(lambda: self.subscribers() == 0))
             self.change_state(demo.ACTIVATE, demo.ACTIVE)
-            self.robot.ask(detections, demo.image(demo.SCENE))
+            self.robot.ask(detections, demo.image(demo.SCENE, "mono8"))
             self.change_state(demo.DEACTIVATE, demo.INACTIVE)
             self.robot.forget(detections)
             self.robot.forget(infos)
@@ -94,7 +94,7 @@ class LifeCycleTest(unittest.TestCase):
         self.load(database=os.path.join(FOLDER, "active.db"))
         self.change_state(demo.CONFIGURE, demo.INACTIVE)
         self.change_state(demo.ACTIVATE, demo.ACTIVE)
-        self.robot.publish(demo.image(demo.SCENE))
+        self.robot.publish(demo.image(demo.SCENE, "mono8"))
 
     def test_what_cannot_be_configured_is_told_and_can_be_mended(self):
         self.load(database="/dev/null/objects.db")

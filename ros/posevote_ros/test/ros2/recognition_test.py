@@ -97,14 +97,14 @@ class RecognitionTest(unittest.TestCase):
         again = self.robot.ask(detections, picture)
         self.assertTrue(again.detections[0].confirmed)
         self.assertEqual(again.detections[0].track, found.track)
-        empty = self.robot.ask(detections, demo.image("test/strangers.jpg"))
+        empty = self.robot.ask(detections, demo.image("test/strangers.jpg", "mono8"))
         self.assertEqual(len(empty.detections), 0)
 
     def test_annotated_picture_and_markers(self):
         annotated = self.collect(demo.NODE + "/annotated", Image)
         markers = self.collect(demo.NODE + "/markers", MarkerArray)
         self.send_camera_info()
-        picture = demo.image(demo.SCENE)
+        picture = demo.image(demo.SCENE, "mono8")
         drawn = self.robot.ask(annotated, picture)
         self.assertEqual((drawn.width, drawn.height, drawn.encoding), (1280, 960, "bgr8"))
         self.assertEqual(drawn.header, picture.header)
@@ -124,7 +124,7 @@ class RecognitionTest(unittest.TestCase):
             solid = self.collect(demo.NODE + "/detections_3d", Detection3DArray)
             frames = self.collect("/tf", TFMessage)
             self.send_camera_info()
-            picture = demo.image(demo.SCENE)
+            picture = demo.image(demo.SCENE, "mono8")
 
             def posed():
                 return [d for d in self.robot.ask(detections, picture).detections
@@ -189,7 +189,7 @@ class RecognitionTest(unittest.TestCase):
         self.assertEqual(answer.annotated.width, 1280)
 
     def test_detect_once_in_the_cameras_next_picture(self):
-        picture = demo.image(demo.SCENE)
+        picture = demo.image(demo.SCENE, "mono8")
         timer = self.robot.node.create_timer(
             0.5, lambda: self.robot.camera(Image).publish(picture))
         answer = self.call("detect", srv.Detect, timeout_s=30.0)
@@ -266,7 +266,7 @@ class RecognitionTest(unittest.TestCase):
         self.assertIn(b"<html", http("/").lower())
         listed = json.loads(http("/api/objects"))
         self.assertIn("poster", json.dumps(listed))
-        http("/api/objects/poster", method="PATCH", data=b'{"name": "print"}',
+        http("/api/objects/poster", method="PATCH", data=b'{"object": "print"}',
              headers={"Content-Type": "application/json"})
         renamed = info_with("print")
         self.assertGreater(renamed.version, first.version)
@@ -276,7 +276,7 @@ class RecognitionTest(unittest.TestCase):
     def test_bad_pictures_are_refused_and_the_node_lives(self):
         detections = self.collect(DETECTIONS, DetectionArray)
         diagnostics = self.collect("/diagnostics", DiagnosticArray)
-        good = demo.image(demo.SCENE)
+        good = demo.image(demo.SCENE, "mono8")
         self.robot.ask(detections, good)
         bad = [Image(),
                Image(width=1280, height=960, step=3840, encoding="rgb8", data=b"short"),

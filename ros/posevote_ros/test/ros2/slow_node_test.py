@@ -24,7 +24,7 @@ def generate_test_description():
         package="posevote_ros", executable="posevote_node", name="posevote", namespace="",
         # Large pictures of many features: far slower than the camera.
         parameters=[{"database": database, "transport": "compressed", "feature.max_features": 0,
-                     "feature.surf.hessian_threshold": 10.0}],
+                     "feature.surf.hessian_threshold": 1.0, "feature.surf.double_size": True}],
         remappings=[("image", demo.CAMERA)], output="screen")
     return launch.LaunchDescription([node, launch_testing.actions.ReadyToTest()])
 

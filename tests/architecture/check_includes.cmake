@@ -16,7 +16,7 @@ set(recognize core feature model index match vote verify)
 set(render core image recognize)
 set(json core recognize)
 set(store core image feature model)
-set(evaluate core image feature model teach recognize)
+set(evaluate core image feature model teach verify recognize)
 
 # other people's headers <- where they may be included (folders under FOLDER)
 set(outsiders sqlite3.h SQLiteCpp/ openssl/ hwy/ pqxx/ nlohmann/ CLI/ httplib.h)

@@ -8,6 +8,7 @@
 #include "posevote/evaluate/cases.hpp"
 #include "posevote/evaluate/results.hpp"
 #include "posevote/evaluate/summary.hpp"
+#include "posevote/verify/verifier.hpp"
 
 namespace posevote {
 namespace {
@@ -18,10 +19,6 @@ const char* const page_style = R"(:root{color-scheme:light dark;--paper:#fcfcfa;
 @media (prefers-color-scheme:dark){:root{--paper:#15181c;--card:#1d2126;--ink:#e6e8eb;
 --soft:#98a2b0;--line:#343a42;--good:#4cc795;--bad:#ff7b81;
 --c0:#7aa7f5;--c1:#f0a064;--c2:#5fcfa3;--c3:#c98be0;--c4:#f08aa0;--c5:#b4c67a}}
-@media print{:root{--paper:#fff;--card:#fff;--ink:#000;--soft:#555;--line:#ccc;--good:#11875d;
---bad:#c8323c;--c0:#2763c4;--c1:#d4691e;--c2:#1d8a63;--c3:#9a44b8;--c4:#b3364f;--c5:#5c6b2f}
-figure,.chart,tr,.cards{break-inside:avoid}h2,h3{break-after:avoid}nav{display:none}
-body{max-width:none;padding:0}table{font-size:.62rem}th,td{padding:.1rem .25rem}}
 *{box-sizing:border-box}
 body{margin:0 auto;max-width:72rem;padding:1.5rem;background:var(--paper);color:var(--ink);
 font:15px/1.5 system-ui,sans-serif}
@@ -51,6 +48,10 @@ figure:has(details[open]) img{filter:grayscale(1) brightness(.65)}
 details{margin-top:.4rem}summary{cursor:pointer;color:var(--c0)}
 details table{font-size:.8rem;margin:.3rem 0}details td{padding:.1rem .6rem;white-space:normal}
 details p{margin:.2rem 0}
+@media print{:root{--paper:#fff;--card:#fff;--ink:#000;--soft:#555;--line:#ccc;--good:#11875d;
+--bad:#c8323c;--c0:#2763c4;--c1:#d4691e;--c2:#1d8a63;--c3:#9a44b8;--c4:#b3364f;--c5:#5c6b2f}
+figure,.chart,tr,.cards{break-inside:avoid}h2,h3{break-after:avoid}nav{display:none}
+body{max-width:none;padding:0}.table{overflow:visible}table{font-size:.6rem}.charts{grid-template-columns:1fr 1fr}th,td{padding:.1rem .25rem}}
 )";
 
 std::string wrap(const std::string& tag, const std::string& css, const std::string& content) {
@@ -171,9 +172,10 @@ std::string in_short(const std::vector<Evaluation>& evaluations) {
   }
   const auto number = [](int count) { return std::to_string(count); };
   std::string text = "**In short:** of " + number(all.asked) + " objects in " + number(all.images) +
-                     " pictures of " + std::to_string(evaluations.size()) + " data sets " +
-                     number(all.right) + " are found (" + percent(all.recall()) + "); " +
-                     number(all.false_positives) + " answers are false";
+                     " pictures of " + number(static_cast<int>(evaluations.size())) +
+                     (evaluations.size() == 1 ? " data set " : " data sets ") + number(all.right) +
+                     " are found (" + percent(all.recall()) + "); " + number(all.false_positives) +
+                     " answers are false";
   if (negatives.images > 0)
     text += ", and " + number(negatives.false_positives) + " on " + number(negatives.images) +
             " pictures that show none of the objects";
@@ -187,13 +189,18 @@ void append_rows(Table& table, const Table& more) {
     table.rows.insert(table.rows.end(), more.rows.begin(), more.rows.end());
 }
 
-ChartSeries alarms_over_threshold(const std::string& name,
-                                  const std::vector<TestOutcome>& outcomes) {
+ChartSeries alarms_over_dial(const std::string& name, const std::vector<TestOutcome>& outcomes,
+                             double largest) {
+  constexpr int kPoints = 30;
+  const auto claims = rank_detections(outcomes, ranking("probability"));
   ChartSeries series{name, {}};
-  for (const CurvePoint& point : make_curve(rank_detections(outcomes, ranking("significance"))))
+  for (int i = 1; i <= kPoints; ++i) {
+    const double dial = largest * i / kPoints, least = least_probability(dial);
+    const auto alarms = std::ranges::count_if(
+        claims, [&](const RankedDetection& claim) { return !claim.right && claim.value >= least; });
     series.points.push_back(
-        {point.threshold, point.false_positives / static_cast<double>(outcomes.size())});
-  std::ranges::reverse(series.points);
+        {dial, 1000 * static_cast<double>(alarms) / static_cast<double>(outcomes.size())});
+  }
   return series;
 }
 
@@ -232,24 +239,17 @@ Chart precision_recall_chart(const Evaluation& evaluation) {
 }
 
 Chart false_alarm_chart(const Evaluation& evaluation) {
+  const double largest = VerifyOptions().false_alarms_per_1000_images;
   Chart chart{"False positives over the dial",
-              {"significance asked for (−log10 of expected false alarms)", 0, 0},
-              {"false positives per picture", 0, 0},
-              {}};
-  if (!evaluation.outcomes.empty())
-    chart.series.push_back(alarms_over_threshold(evaluation.dataset.name, evaluation.outcomes));
-  if (!evaluation.negative_outcomes.empty())
-    chart.series.push_back(
-        alarms_over_threshold(evaluation.negatives.name, evaluation.negative_outcomes));
-  // Beyond the surest false positive the curves are zero: the axis ends soon after it.
-  double surest = 0;
-  for (const ChartSeries& series : chart.series)
-    for (const cv::Point2d& point : series.points) {
-      if (point.y > 0) surest = std::max(surest, point.x);
-      chart.y.max = std::max(chart.y.max, point.y);
-    }
-  for (ChartSeries& series : chart.series)
-    std::erase_if(series.points, [&](const cv::Point2d& p) { return p.x > 1.2 * surest + 1; });
+              {"dial: false positives accepted per 1000 pictures", 0, largest},
+              {"found per 1000 pictures", 0, 0},
+              {{"as accepted", {{0, 0}, {largest, largest}}}}};
+  const auto add = [&](const Dataset& dataset, const std::vector<TestOutcome>& outcomes) {
+    if (!outcomes.empty())
+      chart.series.push_back(alarms_over_dial(dataset.name, outcomes, largest));
+  };
+  add(evaluation.dataset, evaluation.outcomes);
+  add(evaluation.negatives, evaluation.negative_outcomes);
   return chart;
 }
 

@@ -33,8 +33,8 @@ struct ReportOptions {
 
 /// Precision over recall for each ranking.
 [[nodiscard]] Chart precision_recall_chart(const Evaluation& evaluation);
-/// False positives per image (the set's and, if any, the negatives') over the threshold on
-/// significance, -log10 of the expected number of false alarms: the dial.
+/// False positives per 1000 pictures of the set, and of the negatives, over the dial, and the line
+/// of a dial that means what it says. Up to the default dial.
 [[nodiscard]] Chart false_alarm_chart(const Evaluation& evaluation);
 
 /// The whole page as text: style, plots (SVG) and pictures (JPEG in base64) inline. Worst cases

@@ -145,11 +145,20 @@ double coverage_of(const View& view) {
   return all > 0 ? covered / static_cast<double>(all) : 0;
 }
 
+std::vector<std::shared_ptr<const View>> without(
+    const View& view, const std::vector<std::shared_ptr<const View>>& views) {
+  std::vector<std::shared_ptr<const View>> others;
+  for (const auto& other : views) {
+    if (other && other.get() != &view) others.push_back(other);
+  }
+  return others;
+}
+
 double redundancy_of(const View& view, const std::vector<std::shared_ptr<const View>>& others,
                      const std::vector<float>& elsewhere, double max_ratio) {
   std::vector<char> known(view.features.size(), 0);
   for (const auto& other : others) {
-    if (!other || other.get() == &view || other->features.empty()) continue;
+    if (other->features.empty()) continue;
     if (other->features.descriptors.cols != view.features.descriptors.cols) continue;
     const cv::Mat distances =
         distances_of(view.features.descriptors, strongest_of(other->features).descriptors);
@@ -259,7 +268,8 @@ double measure_redundancy(const View& view, const std::vector<std::shared_ptr<co
   if (view.features.empty()) return 0;
   View strong = view;
   strong.features = strongest_of(view.features);
-  return redundancy_of(strong, others, nearest_elsewhere(strong.features), options.max_ratio);
+  return redundancy_of(strong, without(view, others), nearest_elsewhere(strong.features),
+                       options.max_ratio);
 }
 
 ViewQuality assess_view(const View& view, const std::vector<std::shared_ptr<const View>>& others,
@@ -277,16 +287,12 @@ ViewQuality assess_view(const View& view, const std::vector<std::shared_ptr<cons
     }
     quality.next_yaw_deg = next_yaw(yaws, options.max_gap_deg);
   }
-  std::vector<std::shared_ptr<const View>> others_only;
-  for (const auto& other : others) {
-    if (other && other.get() != &view) others_only.push_back(other);
-  }
   if (!view.features.empty()) {
     if (!view.mask.empty()) quality.coverage = coverage_of(view);
     View strong = view;
     strong.features = strongest_of(view.features);
     const std::vector<float> elsewhere = nearest_elsewhere(strong.features);
-    quality.redundancy = redundancy_of(strong, others_only, elsewhere, options.max_ratio);
+    quality.redundancy = redundancy_of(strong, without(view, others), elsewhere, options.max_ratio);
     if (!view.picture.empty()) assess_sizes(strong, elsewhere, options, quality);
   }
   advise(view, options, quality);

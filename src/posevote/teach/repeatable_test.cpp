@@ -51,6 +51,7 @@ TEST(TeachView, KeepsOnlyWhatRepeatsWhenAsked) {
   options.feature.kind = "sift";
   ViewSource source;
   source.picture = print_and_noise();
+  options.only_repeatable = false;
   const View all = teach_view(source, options);
   options.only_repeatable = true;
   const View fewer = teach_view(source, options);

@@ -77,7 +77,7 @@ class RecognitionTest(unittest.TestCase):
         return self.collectors[-1]
 
     def send_camera_info(self):
-        """So that the node has it: its answer to the next picture knows the camera."""
+        """Its answer to a later picture knows the camera; it may be lost like a picture."""
         self.robot.publish(demo.camera_info(), "/camera/camera_info")
 
     def test_detections_have_names_and_the_pictures_header(self):
@@ -103,13 +103,13 @@ class RecognitionTest(unittest.TestCase):
     def test_annotated_picture_and_markers(self):
         annotated = self.collect(demo.NODE + "/annotated", Image)
         markers = self.collect(demo.NODE + "/markers", MarkerArray)
-        self.send_camera_info()
         picture = demo.image(demo.SCENE, "mono8")
         drawn = self.robot.ask(annotated, picture)
         self.assertEqual((drawn.width, drawn.height, drawn.encoding), (1280, 960, "bgr8"))
         self.assertEqual(drawn.header, picture.header)
 
         def shown():
+            self.send_camera_info()
             self.robot.ask(annotated, picture)
             return [m for m in markers if len(m.markers) == 3]
         found = self.robot.wait_until(shown)[0].markers
@@ -123,10 +123,10 @@ class RecognitionTest(unittest.TestCase):
             flat = self.collect(demo.NODE + "/detections_2d", Detection2DArray)
             solid = self.collect(demo.NODE + "/detections_3d", Detection3DArray)
             frames = self.collect("/tf", TFMessage)
-            self.send_camera_info()
             picture = demo.image(demo.SCENE, "mono8")
 
             def posed():
+                self.send_camera_info()
                 return [d for d in self.robot.ask(detections, picture).detections
                         if d.has_pose and d.confirmed]
             found = self.robot.wait_until(posed)[0]

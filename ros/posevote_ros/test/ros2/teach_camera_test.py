@@ -107,6 +107,7 @@ class TeachCameraTest(unittest.TestCase):
         self.show("train/mug/background.jpg")
         goal = self.robot.start_teaching(object="mug")
         answer = goal.get_result_async()
+        self.robot.wait_until(answer.done, 1)  # the node must have this request before it ends
         self.assertTrue(self.robot.change_state(demo.DEACTIVATE))
         self.assertTrue(self.robot.change_state(demo.CLEANUP))
         self.assertEqual(self.robot.wait_for(answer).status, GoalStatus.STATUS_ABORTED)

@@ -51,8 +51,11 @@ void Node::advertise() {
   detections_3d_ = create_publisher<vision_msgs::msg::Detection3DArray>("~/detections_3d", 1);
   markers_ = create_publisher<visualization_msgs::msg::MarkerArray>("~/markers", 1);
   annotated_ = create_publisher<sensor_msgs::msg::Image>("~/annotated", 1);
-  database_ = create_publisher<posevote_msgs::msg::DatabaseInfo>("~/database",
-                                                                 rclcpp::QoS(1).transient_local());
+  // Within the process alone, what is latched would not reach later subscribers of other processes.
+  rclcpp::PublisherOptions to_all;
+  to_all.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
+  database_ = create_publisher<posevote_msgs::msg::DatabaseInfo>(
+      "~/database", rclcpp::QoS(1).transient_local(), to_all);
   transforms_ = std::make_unique<tf2_ros::TransformBroadcaster>(*this);
 }
 

@@ -20,8 +20,8 @@ TeachAction::TeachAction(Node& node) : node_(node) {
 
 TeachAction::~TeachAction() {
   stopped_ = true;
+  if (thread_.joinable()) thread_.join();  // while the server can still send the goal's result
   server_.reset();
-  if (thread_.joinable()) thread_.join();
 }
 
 void TeachAction::offer_capture() {
@@ -54,12 +54,14 @@ void TeachAction::execute(const std::shared_ptr<Goal>& goal) {
   try {
     logic::fill_result(
         *result, goal->get_goal()->images.empty() ? teach_from_camera(*goal) : teach_given(*goal));
-    if (goal->is_canceling())
+    if (goal->is_canceling()) {
       goal->canceled(result);
-    else if (is_cancelled(*goal))
+    } else if (is_cancelled(*goal)) {
+      result->message = "the node was stopped while it taught";
       goal->abort(result);
-    else
+    } else {
       goal->succeed(result);
+    }
   } catch (const std::exception& error) {
     result->message = error.what();
     if (goal->is_canceling())

@@ -10,6 +10,7 @@ import argparse
 import hashlib
 import importlib.util
 import json
+import logging
 import os
 import sys
 import time
@@ -133,6 +134,9 @@ def open_client(scheduler, workers):
         raise posevote.UnsupportedError(
             "posevote batch needs Dask; install it: apt install python3-distributed"
         ) from None
+    # What goes wrong is said in a sentence; Dask would show where in its own code it noticed.
+    for name in ("distributed", "distributed.client", "tornado.application", "asyncio"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     if scheduler:
         try:
             return Client(scheduler, timeout="30s"), None

@@ -110,14 +110,19 @@ void print(const std::string& name, const TaughtView& taught, const AddResult& r
             << " % of the picture\n";
 }
 
+std::vector<std::shared_ptr<const View>> views_of(const std::string& name, const ModelSet& models) {
+  const auto object = std::ranges::find(models.objects(), name, &ObjectModel::name);
+  return object == models.objects().end() ? std::vector<std::shared_ptr<const View>>{}
+                                          : object->views;
+}
+
 /// How well the new views will be found, and what they could be mixed up with.
 void print_cards(const std::string& name, const std::vector<std::shared_ptr<const View>>& views,
                  const ObjectStore& store, const FeatureOptions& features) {
   const auto models = store.load();
-  const auto object = std::ranges::find(models->objects(), name, &ObjectModel::name);
   QualityOptions options;
   options.feature = features;
-  print_quality(views, object->views, options, std::cout);
+  print_quality(views, views_of(name, *models), options, std::cout);
   print_resemblances(name, views, *models, features, std::cout);
 }
 
@@ -132,14 +137,6 @@ bool is_redundant(const TaughtView& taught, const TeachArguments& arguments,
   std::cout << arguments.name << ": " << taught.provenance.source << " is left out, "
             << std::lround(100 * redundancy) << " % of its features are known from other views\n";
   return true;
-}
-
-std::vector<std::shared_ptr<const View>> views_of(const std::string& name,
-                                                  const ObjectStore& store) {
-  const auto models = store.load();
-  const auto object = std::ranges::find(models->objects(), name, &ObjectModel::name);
-  return object == models->objects().end() ? std::vector<std::shared_ptr<const View>>{}
-                                           : object->views;
 }
 
 void run(const TeachArguments& arguments, CommandContext& context) {
@@ -158,7 +155,7 @@ void run(const TeachArguments& arguments, CommandContext& context) {
 
   ProgressBar progress("teaching " + arguments.name, arguments.images.size());
   std::vector<std::shared_ptr<const View>> views, others;
-  if (store && arguments.skip_redundant) others = views_of(arguments.name, *store);
+  if (store && arguments.skip_redundant) others = views_of(arguments.name, *store->load());
   for (std::size_t i = 0; i < arguments.images.size(); ++i) {
     try {
       TaughtView taught = make_view(arguments, i, lesson);
@@ -170,8 +167,9 @@ void run(const TeachArguments& arguments, CommandContext& context) {
         print(arguments.name, taught, result);
         if (result.added) {
           taught.view.id = result.id;
-          views.push_back(std::make_shared<View>(std::move(taught.view)));
-          others.push_back(views.back());
+          const auto view = std::make_shared<const View>(std::move(taught.view));
+          if (!arguments.brief) views.push_back(view);
+          if (arguments.skip_redundant) others.push_back(view);
         }
       }
       std::cout.flush();
@@ -187,8 +185,7 @@ void run(const TeachArguments& arguments, CommandContext& context) {
     progress.advance();
   }
   progress.clear();
-  if (!views.empty() && !arguments.brief)
-    print_cards(arguments.name, views, *store, options.feature);
+  if (!views.empty()) print_cards(arguments.name, views, *store, options.feature);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "posevote/teach/repeatable.hpp"
+
 namespace posevote {
 namespace {
 
@@ -52,46 +54,10 @@ std::vector<float> nearest_elsewhere(const Features& features) {
   return nearest;
 }
 
-struct Reduced {
-  double factor;
-  std::size_t right = 0;         // features found again by their descriptor, at the right place
-  std::vector<float> distances;  // of each feature to its own likeness; kFar: not found again
-};
-
-// Extracts from a reduced copy and looks for the view's features in it.
-Reduced match_reduced(const View& view, const Extractor& extractor, double factor,
-                      const std::vector<float>& elsewhere, double max_ratio) {
-  Reduced result{factor, 0, std::vector<float>(view.features.size(), kFar)};
-  cv::Mat picture, mask;
-  cv::resize(view.picture, picture, cv::Size(), factor, factor, cv::INTER_AREA);
-  if (!view.mask.empty()) cv::resize(view.mask, mask, picture.size(), 0, 0, cv::INTER_NEAREST);
-  const Features found = strongest_of(extractor.extract(picture, mask));
-  if (found.empty() || view.features.empty()) return result;
-  const cv::Mat distances = distances_of(view.features.descriptors, found.descriptors);
-  const double fx = picture.cols / static_cast<double>(view.picture.cols);
-  const double fy = picture.rows / static_cast<double>(view.picture.rows);
-  for (std::size_t i = 0; i < view.features.size(); ++i) {
-    const Keypoint& k = view.features.keypoints[i];
-    const auto* row = distances.ptr<float>(static_cast<int>(i));
-    const auto best = static_cast<std::size_t>(std::min_element(row, row + found.size()) - row);
-    Keypoint expected = k;
-    expected.x = static_cast<float>((k.x + 0.5) * fx - 0.5);
-    expected.y = static_cast<float>((k.y + 0.5) * fy - 0.5);
-    expected.scale = static_cast<float>(k.scale * fx);
-    const Keypoint& other = found.keypoints[best];
-    const bool right_scale =
-        std::abs(std::log2(other.scale / expected.scale)) < 0.5 && k.laplacian == other.laplacian;
-    if (!right_scale || apart(expected, other) > 2 + expected.scale) continue;
-    result.distances[i] = row[best];
-    if (row[best] < max_ratio * elsewhere[i]) ++result.right;
-  }
-  return result;
-}
-
 // Median distance of a feature and its likeness in the copy; kFar if none was found again.
-float typical_distance(const Reduced& reduced) {
+float typical_distance(const std::vector<float>& likenesses) {
   std::vector<float> known;
-  for (const float d : reduced.distances) {
+  for (const float d : likenesses) {
     if (d < kFar) known.push_back(d);
   }
   if (known.empty()) return kFar;
@@ -110,15 +76,21 @@ void assess_sizes(const View& view, const std::vector<float>& elsewhere,
     factor /= std::numbers::sqrt2;
     constexpr double kSmallest = 12;  // px: no detector finds several features on less
     if (factor * quality.size_px < kSmallest) break;
-    const Reduced reduced = match_reduced(view, *extractor, factor, elsewhere, options.max_ratio);
+    ShortenedFeatures reduced =
+        extract_shortened(view.picture, view.mask, factor, factor, *extractor);
+    reduced.features = strongest_of(reduced.features);
+    const auto likenesses = find_likenesses(view.features, reduced);
     if (step == 1) {
-      const float same = typical_distance(reduced);
+      const float same = typical_distance(likenesses);
       const auto alike = std::count_if(elsewhere.begin(), elsewhere.end(), [&](float d) {
         return same < kFar && same >= options.max_ratio * d;
       });
       quality.self_similarity = static_cast<double>(alike) / static_cast<double>(elsewhere.size());
     }
-    if (reduced.right < needed) break;
+    std::size_t right = 0;
+    for (std::size_t i = 0; i < likenesses.size(); ++i)
+      right += likenesses[i] < options.max_ratio * elsewhere[i];
+    if (right < needed) break;
     quality.smallest_size_px = factor * quality.size_px;
   }
 }

@@ -1,7 +1,7 @@
 #include "posevote/teach/repeatable.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
@@ -22,27 +22,37 @@ bool same_spot(const Keypoint& expected, const Keypoint& found) {
   constexpr double kHalfOctave = 0.5, kPrecision = 2;  // px, beside the key point's own scale
   return expected.laplacian == found.laplacian &&
          std::abs(std::log2(found.scale / expected.scale)) < kHalfOctave &&
-         std::hypot(found.x - expected.x, found.y - expected.y) < kPrecision + expected.scale;
-}
-
-void mark_found(const Features& features, const Features& simulated, double fx, double fy,
-                std::vector<char>& repeats) {
-  if (simulated.empty()) return;
-  cv::Mat distance, nearest;
-  cv::batchDistance(features.descriptors, simulated.descriptors, distance, CV_32F, nearest,
-                    cv::NORM_L2, 1);
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const Keypoint& k = features.keypoints[i];
-    Keypoint expected = k;
-    expected.x = static_cast<float>((k.x + 0.5) * fx - 0.5);
-    expected.y = static_cast<float>((k.y + 0.5) * fy - 0.5);
-    expected.scale = static_cast<float>(k.scale * std::sqrt(fx * fy));
-    const int best = nearest.at<int>(static_cast<int>(i));
-    if (same_spot(expected, simulated.keypoints[static_cast<std::size_t>(best)])) repeats[i] = 1;
-  }
+         std::hypot(found.x - expected.x, found.y - expected.y) <= kPrecision + expected.scale;
 }
 
 }  // namespace
+
+ShortenedFeatures extract_shortened(const cv::Mat& picture, const cv::Mat& mask, double fx,
+                                    double fy, const Extractor& extractor) {
+  const cv::Mat copy = shortened(picture, fx, fy, cv::INTER_AREA);
+  return {extractor.extract(copy, shortened(mask, fx, fy, cv::INTER_NEAREST)),
+          copy.cols / static_cast<double>(picture.cols),
+          copy.rows / static_cast<double>(picture.rows)};
+}
+
+std::vector<float> find_likenesses(const Features& features, const ShortenedFeatures& shortened) {
+  std::vector<float> found(features.size(), std::numeric_limits<float>::infinity());
+  if (features.empty() || shortened.features.empty()) return found;
+  const double fx = shortened.fx, fy = shortened.fy;
+  cv::Mat distance, nearest;
+  cv::batchDistance(features.descriptors, shortened.features.descriptors, distance, CV_32F, nearest,
+                    cv::NORM_L2, 1);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    Keypoint expected = features.keypoints[i];
+    expected.x = static_cast<float>((expected.x + 0.5) * fx - 0.5);
+    expected.y = static_cast<float>((expected.y + 0.5) * fy - 0.5);
+    expected.scale = static_cast<float>(expected.scale * std::sqrt(fx * fy));
+    const int row = static_cast<int>(i), best = nearest.at<int>(row);
+    if (same_spot(expected, shortened.features.keypoints[static_cast<std::size_t>(best)]))
+      found[i] = distance.at<float>(row);
+  }
+  return found;
+}
 
 std::vector<char> find_repeatable(const cv::Mat& picture, const cv::Mat& mask,
                                   const Features& features, const Extractor& extractor) {
@@ -50,11 +60,10 @@ std::vector<char> find_repeatable(const cv::Mat& picture, const cv::Mat& mask,
   if (features.empty()) return repeats;
   constexpr double kShortenings[][2] = {{kShort, 1}, {1, kShort}, {kShort, kShort}};
   for (const auto& [fx, fy] : kShortenings) {
-    const Features simulated = extractor.extract(shortened(picture, fx, fy, cv::INTER_AREA),
-                                                 shortened(mask, fx, fy, cv::INTER_NEAREST));
-    const double exact_fx = cvRound(picture.cols * fx) / static_cast<double>(picture.cols);
-    const double exact_fy = cvRound(picture.rows * fy) / static_cast<double>(picture.rows);
-    mark_found(features, simulated, exact_fx, exact_fy, repeats);
+    const auto found =
+        find_likenesses(features, extract_shortened(picture, mask, fx, fy, extractor));
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (std::isfinite(found[i])) repeats[i] = 1;
   }
   return repeats;
 }

@@ -8,6 +8,21 @@
 
 namespace posevote {
 
+/// The features of a copy of a picture whose sides are `fx` and `fy` times as long.
+struct ShortenedFeatures {
+  Features features;
+  double fx = 1, fy = 1;
+};
+
+/// Of a copy of about these factors: its sides are whole pixels.
+[[nodiscard]] ShortenedFeatures extract_shortened(const cv::Mat& picture, const cv::Mat& mask,
+                                                  double fx, double fy, const Extractor& extractor);
+
+/// For each of `features` the distance to its likeness in the shortened copy: to the most similar
+/// feature there when that is the one at its place, of its size and sign, else infinity.
+[[nodiscard]] std::vector<float> find_likenesses(const Features& features,
+                                                 const ShortenedFeatures& shortened);
+
 /// For each of `features` (of `picture` inside `mask`, as `extractor` gave them) whether it
 /// repeats: 1 when in a simulated picture - the object turned away by 45 degrees about its vertical
 /// or its horizontal axis, or 1.4 times farther off - the most similar feature is the one at its

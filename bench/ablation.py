@@ -16,6 +16,7 @@ MECHANISMS = (
     ("the paper's preset", ("--preset", "paper")),
     ("no rating by the whole object's look", ("--set", "verify.false_alarms_per_1000_images=1e6")),
     ("every feature taught", ("--set", "teach.only_repeatable=false")),
+    ("no features seen from above", ("--set", "teach.foreshortened=false")),
     ("one neighbour of each feature", ("--set", "match.neighbors=2")),
     ("a stricter ratio (0.8)", ("--set", "match.max_ratio=0.8")),
     ("the paper's grid of votes", ("--set", "vote.grid=image")),

@@ -114,7 +114,7 @@ std::vector<char> features_taken(const Claim& claim, const std::vector<Claim>& b
 /// where it is they say together: of those with a good part of the strongest one's evidence, the
 /// one whose box overlaps most with what the others claim, each as far as it is probable, goes
 /// first. `claims` are sorted, best first.
-void prefer_most_probable(std::vector<Claim>& claims) {
+void prefer_best_placed(std::vector<Claim>& claims) {
   constexpr double kPart = 0.6;  // of the strongest one's digits
   const auto probability = [](const Claim& claim) {
     return claim.hypothesis.presence.probability();
@@ -177,7 +177,7 @@ std::vector<Hypothesis> compete(std::vector<Hypothesis> hypotheses, const SceneC
   std::ranges::stable_sort(hypotheses, {}, &Hypothesis::log10_false_alarms);
   std::vector<Claim> candidates, claims;
   for (Hypothesis& hypothesis : hypotheses) candidates.emplace_back(std::move(hypothesis), scene);
-  prefer_most_probable(candidates);
+  prefer_best_placed(candidates);
   for (Claim& claim : candidates) {
     if (Claim* other = look_alike(claim, claims, options.max_overlap)) {
       settle(*other, claim, scene);

@@ -77,7 +77,7 @@ TEST(AssessView, SeesThatPrintCoversACornerOnly) {
 
 TEST(AssessView, NeedsMorePixelsWithFewFeatures) {
   cv::Mat picture(300, 240, CV_8UC3, cv::Scalar::all(150));
-  made::box_art({30, 40}).copyTo(picture(cv::Rect(100, 100, 30, 40)));
+  made::box_art({20, 26}).copyTo(picture(cv::Rect(100, 100, 20, 26)));
   const ViewQuality poor = assess_view(taught(picture), {}, sift());
   const ViewQuality good = assess_view(taught(rich()), {}, sift());
   EXPECT_GT(poor.smallest_size_px, good.smallest_size_px);

@@ -2,21 +2,11 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <opencv2/imgproc.hpp>
+
+#include "posevote/teach/shortened.hpp"
 
 namespace posevote {
 namespace {
-
-constexpr double kShort = 1 / std::numbers::sqrt2;  // of a length seen 45 degrees from the side
-
-// `image` with its sides multiplied by fx and fy.
-cv::Mat shortened(const cv::Mat& image, double fx, double fy, int interpolation) {
-  if (image.empty()) return {};
-  cv::Mat result;
-  cv::resize(image, result, cv::Size(), fx, fy, interpolation);
-  return result;
-}
 
 bool same_spot(const Keypoint& expected, const Keypoint& found) {
   constexpr double kHalfOctave = 0.5, kPrecision = 2;  // px, beside the key point's own scale
@@ -29,10 +19,8 @@ bool same_spot(const Keypoint& expected, const Keypoint& found) {
 
 ShortenedFeatures extract_shortened(const cv::Mat& picture, const cv::Mat& mask, double fx,
                                     double fy, const Extractor& extractor) {
-  const cv::Mat copy = shortened(picture, fx, fy, cv::INTER_AREA);
-  return {extractor.extract(copy, shortened(mask, fx, fy, cv::INTER_NEAREST)),
-          copy.cols / static_cast<double>(picture.cols),
-          copy.rows / static_cast<double>(picture.rows)};
+  const ShortenedPicture copy = shorten(picture, mask, fx, fy);
+  return {extractor.extract(copy.picture, copy.mask), copy.fx, copy.fy};
 }
 
 std::vector<float> find_likenesses(const Features& features, const ShortenedFeatures& shortened) {
@@ -58,7 +46,7 @@ std::vector<char> find_repeatable(const cv::Mat& picture, const cv::Mat& mask,
                                   const Features& features, const Extractor& extractor) {
   std::vector<char> repeats(features.size(), 0);
   if (features.empty()) return repeats;
-  constexpr double kShortenings[][2] = {{kShort, 1}, {1, kShort}, {kShort, kShort}};
+  constexpr double kShortenings[][2] = {{kFromAside, 1}, {1, kFromAside}, {kFromAside, kFromAside}};
   for (const auto& [fx, fy] : kShortenings) {
     const auto found =
         find_likenesses(features, extract_shortened(picture, mask, fx, fy, extractor));

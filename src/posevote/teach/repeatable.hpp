@@ -14,7 +14,6 @@ struct ShortenedFeatures {
   double fx = 1, fy = 1;
 };
 
-/// Of a copy of about these factors: its sides are whole pixels.
 [[nodiscard]] ShortenedFeatures extract_shortened(const cv::Mat& picture, const cv::Mat& mask,
                                                   double fx, double fy, const Extractor& extractor);
 

@@ -5,6 +5,7 @@
 #include "posevote/core/error.hpp"
 #include "posevote/teach/outline.hpp"
 #include "posevote/teach/repeatable.hpp"
+#include "posevote/teach/shortened.hpp"
 
 namespace posevote {
 namespace {
@@ -74,6 +75,31 @@ Features inside_border(const Features& features, const cv::Mat& mask, double bor
   });
 }
 
+Features features_of(const cv::Mat& picture, const cv::Mat& mask, const Extractor& extractor,
+                     const TeachOptions& options) {
+  Features features = extractor.extract(picture, mask);
+  if (options.border_scales > 0 && !features.empty())
+    features = inside_border(features, mask, options.border_scales);
+  if (!options.only_repeatable) return features;
+  const auto repeats = find_repeatable(picture, mask, features, extractor);
+  return select(features, [&](std::size_t i) { return repeats[i] != 0; });
+}
+
+// Both, each strongest first, in one such order.
+Features merge(const Features& a, const Features& b) {
+  Features merged;
+  std::size_t i = 0, j = 0;
+  while (i < a.size() || j < b.size()) {
+    const bool from_a =
+        j == b.size() || (i < a.size() && a.keypoints[i].response >= b.keypoints[j].response);
+    const Features& source = from_a ? a : b;
+    const std::size_t row = from_a ? i++ : j++;
+    merged.keypoints.push_back(source.keypoints[row]);
+    merged.descriptors.push_back(source.descriptors.row(static_cast<int>(row)));
+  }
+  return merged;
+}
+
 Features features_inside(const cv::Mat& picture, const cv::Mat& mask, const TeachOptions& options) {
   cv::Mat seen = picture;
   if (options.paint_surroundings) {
@@ -81,14 +107,11 @@ Features features_inside(const cv::Mat& picture, const cv::Mat& mask, const Teac
     seen.setTo(cv::mean(picture, mask), mask == 0);
   }
   const auto extractor = make_extractor(options.feature);
-  Features features = extractor->extract(seen, mask);
-  if (options.border_scales > 0 && !features.empty())
-    features = inside_border(features, mask, options.border_scales);
-  if (options.only_repeatable) {
-    const auto repeats = find_repeatable(seen, mask, features, *extractor);
-    features = select(features, [&](std::size_t i) { return repeats[i] != 0; });
-  }
-  return features;
+  const Features features = features_of(seen, mask, *extractor, options);
+  if (!options.foreshortened) return features;
+  const ShortenedPicture copy = shorten(seen, mask, 1, kFromAside);
+  return merge(features, lengthen(features_of(copy.picture, copy.mask, *extractor, options),
+                                  copy.fx, copy.fy));
 }
 
 }  // namespace
@@ -104,6 +127,8 @@ void TeachOptions::describe(OptionList& list) {
            "Paint the surroundings in the object's mean colour before looking for features.");
   list.add("only_repeatable", only_repeatable,
            "Keep only features that are found again when the object is turned or farther off.");
+  list.add("foreshortened", foreshortened,
+           "Also keep the features that the object shows from 45 degrees above or below.");
 }
 
 cv::Mat find_object(const ViewSource& source, const SegmentOptions& options) {

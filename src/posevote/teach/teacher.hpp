@@ -39,6 +39,9 @@ struct TeachOptions {
   /// Keep only features that repeat, see find_repeatable: the others make the database larger and
   /// hardly ever match.
   bool only_repeatable = true;
+  /// Also keep the features of the picture shortened upright: from 45 degrees above or below,
+  /// where no view is taught, the object looks like that.
+  bool foreshortened = true;
   void describe(OptionList& list);
 };
 

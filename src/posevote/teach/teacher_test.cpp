@@ -9,6 +9,8 @@
 
 #include "posevote/core/error.hpp"
 #include "posevote/teach/made_pictures.hpp"
+#include "posevote/teach/repeatable.hpp"
+#include "posevote/teach/shortened.hpp"
 
 namespace posevote {
 namespace {
@@ -149,8 +151,35 @@ TEST(TeachView, LeavesOutFeaturesNearTheSilhouetteOnRequest) {
   EXPECT_EQ(inner.descriptors.rows, static_cast<int>(inner.size()));
   for (const Keypoint& k : inner.keypoints) {
     const float margin = std::min({k.x + 1, k.y + 1, 120 - k.x, 150 - k.y});
-    EXPECT_GT(margin, 4 * k.scale - 1);
+    // Scales go by the area, of a copy that is shorter one way.
+    EXPECT_GT(margin, 4 * k.scale * std::sqrt(kFromAside) - 1);
   }
+}
+
+TEST(TeachView, KnowsTheObjectFromAboveToo) {
+  TeachOptions options = sift();
+  options.foreshortened = false;
+  const cv::Mat picture = print();
+  const View level = teach_view(whole(picture), options);
+  options.foreshortened = true;
+  const View both = teach_view(whole(picture), options);
+  EXPECT_EQ(level.outline, both.outline);
+  EXPECT_EQ(both.features.descriptors.rows, static_cast<int>(both.features.size()));
+  EXPECT_TRUE(std::ranges::is_sorted(both.features.keypoints, std::ranges::greater(),
+                                     &Keypoint::response));
+  for (const Keypoint& k : both.features.keypoints)
+    EXPECT_TRUE(cv::Rect2f(-1, -1, 122, 152).contains({k.x, k.y}));
+
+  // The same print from 50 degrees above is told by more of them.
+  cv::Mat above;
+  cv::resize(picture, above, {}, 1, std::cos(50 * CV_PI / 180), cv::INTER_AREA);
+  const Features seen = make_extractor(options.feature)->extract(above);
+  const auto likenesses = [&](const View& view) {
+    const ShortenedFeatures scene{seen, 1, above.rows / static_cast<double>(picture.rows)};
+    return std::ranges::count_if(find_likenesses(view.features, scene),
+                                 [](float distance) { return distance < 0.4F; });
+  };
+  EXPECT_GT(likenesses(both), 1.3 * static_cast<double>(likenesses(level)));
 }
 
 TEST(TeachView, PaintedSurroundingsDoNotReachTheFeatures) {

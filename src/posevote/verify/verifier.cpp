@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 namespace posevote {
@@ -59,7 +60,7 @@ double msac_cost(const cv::Matx33d& transform, const std::vector<PointPair>& pai
   return cost;
 }
 
-/// Two pairs make the similarity; without two more that agree nothing speaks for it.
+/// Two pairs make the proposal; without two more that agree nothing speaks for it.
 constexpr int kMinAgreeing = 4;
 
 int count_agreeing(const cv::Matx33d& transform, const std::vector<PointPair>& pairs,
@@ -69,24 +70,30 @@ int count_agreeing(const cv::Matx33d& transform, const std::vector<PointPair>& p
   }));
 }
 
-/// The similarity through two of the pairs on which most of the others agree. The pairs come best
-/// first, so trying all couples of the first few is a deterministic PROSAC (Chum & Matas 2005).
-cv::Matx33d propose_similarity(const std::vector<PointPair>& pairs, double object_size,
-                               const EvidenceOptions& options) {
+/// The pose through two of the pairs on which most of the others agree: a similarity, of the view
+/// or of the view as it looks from 45 degrees above or below. The pairs come best first, so trying
+/// all couples of the first few is a deterministic PROSAC (Chum & Matas 2005).
+cv::Matx33d propose_pose(const std::vector<PointPair>& pairs, double object_size,
+                         const EvidenceOptions& options) {
   constexpr std::size_t kFirst = 24;
   const double limit = 2 * options.tolerance_px(object_size);
   cv::Matx33d best = cv::Matx33d::zeros();
   double best_cost = limit * limit * static_cast<double>(pairs.size());
   const std::size_t count = std::min(pairs.size(), kFirst);
-  for (std::size_t i = 0; i + 1 < count; ++i)
-    for (std::size_t j = i + 1; j < count; ++j) {
-      if (cv::norm(pairs[i].scene - pairs[j].scene) < 2 * limit) continue;
-      const auto candidate = fit_transform(TransformKind::similarity, {pairs[i], pairs[j]});
-      const double cost = msac_cost(candidate, pairs, limit);
-      if (cost >= best_cost) continue;
-      best = candidate;
-      best_cost = cost;
-    }
+  for (const double height : {1.0, 1 / std::numbers::sqrt2}) {
+    const auto shortening = cv::Matx33d::diag({1, height, 1});
+    std::vector<PointPair> seen = pairs;
+    for (PointPair& pair : seen) pair.view.y *= static_cast<float>(height);
+    for (std::size_t i = 0; i + 1 < count; ++i)
+      for (std::size_t j = i + 1; j < count; ++j) {
+        if (cv::norm(seen[i].scene - seen[j].scene) < 2 * limit) continue;
+        const auto candidate = fit_transform(TransformKind::similarity, {seen[i], seen[j]});
+        const double cost = msac_cost(candidate, seen, limit);
+        if (cost >= best_cost) continue;
+        best = candidate * shortening;
+        best_cost = cost;
+      }
+  }
   return best;
 }
 
@@ -208,7 +215,7 @@ Hypothesis verify_cluster(const PoseCluster& cluster, const SceneContext& scene,
   const View& view = view_of(scene, cluster.view);
   const auto pairs = points_of(scene, one_to_one(cluster, scene.matches));
   const double expected_size = view_size(view) * cluster.pose.scale;
-  const auto proposal = propose_similarity(pairs, expected_size, options.evidence);
+  const auto proposal = propose_pose(pairs, expected_size, options.evidence);
   best.rejected = why_implausible(proposal, view.outline, options.plausibility);
   if (!best.rejected.empty()) return best;
 

@@ -1,6 +1,8 @@
 #include "posevote/teach/shortened.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 namespace posevote {

@@ -1,7 +1,6 @@
 // A flat thing seen from aside: its picture, shortened.
 #pragma once
 
-#include <numbers>
 #include <opencv2/core.hpp>
 
 #include "posevote/feature/features.hpp"
@@ -9,7 +8,7 @@
 namespace posevote {
 
 /// What is left of a length that is seen from 45 degrees aside.
-constexpr double kFromAside = 1 / std::numbers::sqrt2;
+constexpr double kFromAside = 0.70710678118654752;  // 1 / sqrt(2)
 
 /// A copy of a picture and its mask, whose sides are `fx` and `fy` times as long.
 struct ShortenedPicture {

@@ -138,8 +138,16 @@ TEST(MakeMethod, SetsOptionsOfRecognitionAndTeaching) {
   EXPECT_EQ(method.recognize.feature.kind, "sift");
   EXPECT_EQ(method.teach.feature.kind, "sift");
   EXPECT_EQ(method.teach.min_features, 12);
+  EXPECT_TRUE(method.teach.foreshortened);
   EXPECT_THROW(static_cast<void>(make_method("default", {{"nonsense", "1"}})), Error);
   EXPECT_THROW(static_cast<void>(make_method("no-preset", {})), Error);
+}
+
+TEST(MakeMethod, TeachesForThePaperAsThePaperDoes) {
+  const Method paper = make_method("paper", {});
+  EXPECT_FALSE(paper.teach.foreshortened);
+  EXPECT_FALSE(paper.teach.only_repeatable);
+  EXPECT_TRUE(make_method("paper", {{"teach.foreshortened", "true"}}).teach.foreshortened);
 }
 
 }  // namespace

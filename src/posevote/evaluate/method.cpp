@@ -42,6 +42,8 @@ Method make_method(const std::string& preset,
   for (const auto& [name, value] : settings)
     if (!name.starts_with(prefix)) recognize.set(name, value);
   method.teach.feature = method.recognize.feature;
+  if (preset == "paper")  // which keeps the features of a view as they are
+    method.teach.only_repeatable = method.teach.foreshortened = false;
   const OptionList teach = list_options(method.teach);
   for (const auto& [name, value] : settings)
     if (name.starts_with(prefix)) teach.set(name.substr(prefix.size()), value);

@@ -30,7 +30,7 @@ nav a{margin-right:1rem}
 .cards div{background:var(--card);border:1px solid var(--line);border-radius:.6rem;padding:.7rem .9rem}
 .cards b{display:block;font-size:1.5rem;line-height:1.2}.cards span{color:var(--soft);font-size:.85rem}
 .table{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;
-font-size:.9rem}th,td{padding:.28rem .7rem;text-align:right;border-bottom:1px solid var(--line);
+font-size:.9rem}th,td{padding:.28rem .5rem;text-align:right;border-bottom:1px solid var(--line);
 white-space:nowrap}th{color:var(--soft);font-weight:600}th:first-child,td:first-child{text-align:left;
 padding-left:0}tbody tr:last-child td{font-weight:600}.plain tbody tr:last-child td{font-weight:400}
 .charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(24rem,1fr));gap:1rem}
@@ -51,7 +51,7 @@ details p{margin:.2rem 0}
 @media print{:root{--paper:#fff;--card:#fff;--ink:#000;--soft:#555;--line:#ccc;--good:#11875d;
 --bad:#c8323c;--c0:#2763c4;--c1:#d4691e;--c2:#1d8a63;--c3:#9a44b8;--c4:#b3364f;--c5:#5c6b2f}
 figure,.chart,tr,.cards{break-inside:avoid}h2,h3{break-after:avoid}nav{display:none}
-body{max-width:none;padding:0}.table{overflow:visible}table{font-size:.6rem}.charts{grid-template-columns:1fr 1fr}th,td{padding:.1rem .25rem}}
+body{max-width:none;padding:0}.table{overflow:visible}table{font-size:.7rem}.charts{grid-template-columns:1fr 1fr}th,td{padding:.1rem .25rem}}
 )";
 
 std::string wrap(const std::string& tag, const std::string& css, const std::string& content) {

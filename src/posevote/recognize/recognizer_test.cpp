@@ -101,6 +101,16 @@ TEST(Recognizer, FindsAnObjectUnderRotationAndScaleAlsoUpsideDown) {
   }
 }
 
+TEST(Recognizer, FindsAFaceThatIsSeenFromAbove) {
+  const Recognizer recognizer(poster_model(), options_of());
+  for (const double height : {0.7, 0.6}) {
+    const cv::Matx23d place(1, 0, 280, 0, height, 200);
+    const auto result = recognizer.recognize(scene_with({place}));
+    ASSERT_EQ(result.detections.size(), 1U) << height;
+    EXPECT_LT(corner_error(result.detections[0], place), 4) << height;
+  }
+}
+
 /// Nothing in it is its own mirror picture, unlike the rocket of the poster or the bowl of the
 /// muesli.
 cv::Mat triangles() {

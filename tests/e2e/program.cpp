@@ -18,7 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void become_posevote(const std::vector<std::string>& arguments,
+int open_program() {
+  return open(POSEVOTE_PROGRAM, O_PATH | O_CLOEXEC);
+}
+
+/// `program` is open already: another user may not be let into its folder.
+[[noreturn]] void become_posevote(int program, const std::vector<std::string>& arguments,
                                   const std::string& database, const std::string& out,
                                   const std::string& err) {
   constexpr int mode = 0600;
@@ -30,7 +35,7 @@ namespace fs = std::filesystem;
   for (const std::string& argument : arguments)
     words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
-  execv(POSEVOTE_PROGRAM, words.data());
+  fexecve(program, words.data(), environ);
   _exit(127);
 }
 
@@ -61,11 +66,12 @@ Outcome Program::run(const std::vector<std::string>& arguments,
   const fs::path output = mkdtemp(pattern.data());
   const pid_t child = fork();
   if (child == 0) {
+    const int program = open_program();
     if (before) {
       fs::permissions(output, fs::perms::all);
       before();
     }
-    become_posevote(arguments, database(), output / "out", output / "err");
+    become_posevote(program, arguments, database(), output / "out", output / "err");
   }
   int status = 0;
   waitpid(child, &status, 0);
@@ -80,7 +86,7 @@ Outcome Program::run(const std::vector<std::string>& arguments,
 
 pid_t Program::start(const std::vector<std::string>& arguments) const {
   const pid_t child = fork();
-  if (child == 0) become_posevote(arguments, database(), "/dev/null", "/dev/null");
+  if (child == 0) become_posevote(open_program(), arguments, database(), "/dev/null", "/dev/null");
   return child;
 }
 

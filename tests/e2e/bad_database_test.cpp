@@ -91,12 +91,14 @@ void become_nobody() {
 
 TEST_F(BadDatabase, ReadOnly) {
   const std::string before = content(database());
+  const std::string view = path("view.jpg");  // the project may lie in a private folder
+  fs::copy_file(view_, view);
   fs::permissions(database(), fs::perms(0444));
   fs::permissions(folder_, fs::perms(0555));
   const Outcome recognised = run({"recognize", scene_}, become_nobody);
   EXPECT_EQ(recognised.status, 0) << recognised.err;
-  expect_failure(run({"teach", "x", view_}, become_nobody), 1, {database(), "read-only"});
-  expect_failure(run({"teach", "x", view_, "--db", path("new.db")}, become_nobody), 1,
+  expect_failure(run({"teach", "x", view}, become_nobody), 1, {database(), "read-only"});
+  expect_failure(run({"teach", "x", view, "--db", path("new.db")}, become_nobody), 1,
                  {path("new.db")});
   fs::permissions(folder_, fs::perms::all);
   EXPECT_EQ(content(database()), before);

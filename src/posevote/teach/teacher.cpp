@@ -77,9 +77,7 @@ Features inside_border(const Features& features, const cv::Mat& mask, double bor
 
 Features features_of(const cv::Mat& picture, const cv::Mat& mask, const Extractor& extractor,
                      const TeachOptions& options) {
-  Features features = extractor.extract(picture, mask);
-  if (options.border_scales > 0 && !features.empty())
-    features = inside_border(features, mask, options.border_scales);
+  const Features features = extractor.extract(picture, mask);
   if (!options.only_repeatable) return features;
   const auto repeats = find_repeatable(picture, mask, features, extractor);
   return select(features, [&](std::size_t i) { return repeats[i] != 0; });
@@ -107,11 +105,14 @@ Features features_inside(const cv::Mat& picture, const cv::Mat& mask, const Teac
     seen.setTo(cv::mean(picture, mask), mask == 0);
   }
   const auto extractor = make_extractor(options.feature);
-  const Features features = features_of(seen, mask, *extractor, options);
-  if (!options.foreshortened) return features;
-  const ShortenedPicture copy = shorten(seen, mask, 1, kFromAside);
-  return merge(features, lengthen(features_of(copy.picture, copy.mask, *extractor, options),
-                                  copy.fx, copy.fy));
+  Features features = features_of(seen, mask, *extractor, options);
+  if (options.foreshortened) {
+    const ShortenedPicture copy = shorten(seen, mask, 1, kFromAside);
+    features = merge(features, lengthen(features_of(copy.picture, copy.mask, *extractor, options),
+                                        copy.fx, copy.fy));
+  }
+  if (options.border_scales > 0) features = inside_border(features, mask, options.border_scales);
+  return features;
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "posevote/core/error.hpp"
 #include "posevote/teach/made_pictures.hpp"
 #include "posevote/teach/repeatable.hpp"
-#include "posevote/teach/shortened.hpp"
 
 namespace posevote {
 namespace {
@@ -151,8 +150,7 @@ TEST(TeachView, LeavesOutFeaturesNearTheSilhouetteOnRequest) {
   EXPECT_EQ(inner.descriptors.rows, static_cast<int>(inner.size()));
   for (const Keypoint& k : inner.keypoints) {
     const float margin = std::min({k.x + 1, k.y + 1, 120 - k.x, 150 - k.y});
-    // Scales go by the area, of a copy that is shorter one way.
-    EXPECT_GT(margin, 4 * k.scale * std::sqrt(kFromAside) - 1);
+    EXPECT_GT(margin, 4 * k.scale - 1);
   }
 }
 
@@ -165,8 +163,8 @@ TEST(TeachView, KnowsTheObjectFromAboveToo) {
   const View both = teach_view(whole(picture), options);
   EXPECT_EQ(level.outline, both.outline);
   EXPECT_EQ(both.features.descriptors.rows, static_cast<int>(both.features.size()));
-  EXPECT_TRUE(std::ranges::is_sorted(both.features.keypoints, std::ranges::greater(),
-                                     &Keypoint::response));
+  EXPECT_TRUE(
+      std::ranges::is_sorted(both.features.keypoints, std::ranges::greater(), &Keypoint::response));
   for (const Keypoint& k : both.features.keypoints)
     EXPECT_TRUE(cv::Rect2f(-1, -1, 122, 152).contains({k.x, k.y}));
 

@@ -7,6 +7,9 @@ namespace {
 std::shared_ptr<PyView> view_of(const PyModels& models, const std::shared_ptr<const View>& view) {
   auto made = std::make_shared<PyView>();
   made->taught.view = *view;
+  cv::Mat floats;
+  view->features.descriptors.convertTo(floats, CV_32F);
+  made->taught.view.features.descriptors = floats;
   if (models.record) made->record = *models.record;
   return made;
 }

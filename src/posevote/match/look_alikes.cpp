@@ -22,7 +22,9 @@ Features sample_of(const ObjectModel& object) {
     if (count == 0) continue;
     sample.keypoints.insert(sample.keypoints.end(), all.keypoints.begin(),
                             all.keypoints.begin() + count);
-    sample.descriptors.push_back(all.descriptors.rowRange(0, count));
+    cv::Mat rows;
+    all.descriptors.rowRange(0, count).convertTo(rows, CV_32F);
+    sample.descriptors.push_back(rows);
   }
   return sample;
 }

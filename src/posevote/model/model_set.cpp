@@ -17,7 +17,8 @@ void check_view(const ObjectModel& object, const View& view, int& dimension) {
   if (descriptors.rows != static_cast<int>(view.features.size()))
     fail("has not one descriptor for each key point");
   if (descriptors.empty()) return;
-  if (descriptors.type() != CV_32F) fail("has descriptors that are not 32-bit floats");
+  if (descriptors.type() != CV_32F && descriptors.type() != CV_16F)
+    fail("has descriptors that are not floats of 32 or 16 bits");
   if (dimension == 0) dimension = descriptors.cols;
   if (descriptors.cols != dimension) fail("has descriptors of another length than the others");
 }

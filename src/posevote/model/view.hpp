@@ -20,7 +20,7 @@ struct View {
   cv::Size image_size;
   std::vector<cv::Point2f> outline;  ///< the silhouette, a simple polygon of >= 3 points
   cv::Point2f centre;                ///< centroid of the mask: c_o of Eq. 1
-  Features features;                 ///< inside the mask only
+  Features features;                 ///< inside the mask only; of a loaded view CV_16F
   Patch patch;                       ///< the object in small; may be empty
   cv::Mat picture;  ///< BGR 8-bit, the taught picture, for showing it; may be empty
   cv::Mat mask;     ///< CV_8U 0/255, size of the picture; may be empty

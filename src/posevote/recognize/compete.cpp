@@ -72,7 +72,8 @@ double resemblance(const Claim& claim, const Claim& other, const SceneContext& s
     const float limit =
         scene.neighborhood.reference(match.scene, match.view, match.feature).distance;
     return std::ranges::any_of(other.hypothesis.evidence.inliers, [&](const Match& candidate) {
-      return descriptor_distance(descriptors, match.scene, descriptors, candidate.scene) < limit;
+      return descriptor_distance(descriptors, match.scene,
+                                 descriptors.ptr<float>(candidate.scene)) < limit;
     });
   });
   return static_cast<double>(alike) / static_cast<double>(own.size());

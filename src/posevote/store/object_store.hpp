@@ -100,7 +100,8 @@ class ObjectStore {
   [[nodiscard]] virtual TaughtView view(const std::string& object, const std::string& id) const = 0;
 
   /// One consistent snapshot of everything. Views that an earlier snapshot, still alive, holds with
-  /// the same content are the same objects in memory.
+  /// the same content are the same objects in memory. Their descriptors are half floats (CV_16F);
+  /// `view` gives them as they were taught.
   [[nodiscard]] virtual std::shared_ptr<const ModelSet> load(
       const LoadOptions& options = {}) const = 0;
   [[nodiscard]] virtual ObjectModel load_object(const std::string& name,

@@ -100,6 +100,13 @@ Blob patch_blob(const View& view, const Blob& picture, const Blob& mask) {
   return encode_patch(patch_of(view, picture, mask));
 }
 
+void halve_descriptors(Features& features) {
+  if (features.empty()) return;
+  cv::Mat halves;
+  features.descriptors.convertTo(halves, CV_16F);
+  features.descriptors = halves;
+}
+
 void add_pictures(View& view, BlobView stored_patch, bool pictures, const FetchPictures& fetch,
                   const std::string& location) {
   view.patch = unless_damaged([&] { return decode_patch(stored_patch); }, location);

@@ -38,6 +38,10 @@ void check_picture(const TaughtView& view, const std::string& identity, const st
 /// cannot be read.
 [[nodiscard]] Blob patch_blob(const View& view, const Blob& picture, const Blob& mask);
 
+/// Half floats for a snapshot, in half of the memory: their rounding, 2^-11 of a value, is far
+/// below what two pictures of one point differ by.
+void halve_descriptors(Features& features);
+
 /// Encoded picture and mask of a view, fetched when they are needed.
 using FetchPictures = std::function<std::pair<Blob, Blob>()>;
 

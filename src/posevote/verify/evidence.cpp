@@ -77,13 +77,15 @@ Trial try_feature(const cv::Matx33d& scene_from_view, float tolerance_px, int vi
       predict(scene_from_view, known.keypoints[static_cast<std::size_t>(feature)], limits.stretch);
   if (!(expected.largest_scale >= scene.grid.least_scale()) || std::isnan(expected.place.x))
     return trial;
+  const float* taught = nullptr;  // read when it is needed: most places have nothing that fits
   scene.grid.for_each_near(expected.place, tolerance_px, [&](const PlacedKeypoint& k) {
     if (!fits(k, expected, limits)) return;
     const int s = k.index;
     if (!taken.empty() && taken[static_cast<std::size_t>(s)]) return;
     ++trial.count;
     const Reference reference = scene.neighborhood.reference(s, view, feature);
-    const float distance = descriptor_distance(found.descriptors, s, known.descriptors, feature);
+    if (!taught) taught = scene.rivals.taught_row(view, feature);
+    const float distance = descriptor_distance(found.descriptors, s, taught);
     const float ratio = reference.distance > 0 ? distance / reference.distance : 2.F;
     if (ratio > static_cast<float>(options.max_ratio)) return;
     const double chance = chance_of(distance, reference, options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "posevote/index/codes.hpp"
 #include "posevote/index/dots.hpp"
 
 namespace posevote {
@@ -34,22 +35,26 @@ SceneRivals::SceneRivals(const ModelSet& models, const Features& scene, int rank
 }
 
 Reference SceneRivals::reference(int view, int feature) {
-  const Features& known = models_.views()[static_cast<std::size_t>(view)].view->features;
   auto& of_view = distances_[static_cast<std::size_t>(view)];
-  if (of_view.empty()) of_view.assign(known.size(), -1.F);
+  if (of_view.empty())
+    of_view.assign(models_.views()[static_cast<std::size_t>(view)].view->features.size(), -1.F);
   float& distance = of_view[static_cast<std::size_t>(feature)];
   if (distance < 0) {
-    distances(known.descriptors.ptr<float>(feature), rows_.data(), rows_.size(), dimension_,
-              to_all_.data());
+    distances(taught_row(view, feature), rows_.data(), rows_.size(), dimension_, to_all_.data());
     distance = nth_smallest(to_all_, rank_, nearest_);
   }
   return {distance, static_cast<double>(rank_) / static_cast<double>(rows_.size())};
 }
 
-float descriptor_distance(const cv::Mat& a, int row_a, const cv::Mat& b, int row_b) {
-  const float* row = b.ptr<float>(row_b);
+const float* SceneRivals::taught_row(int view, int feature) {
+  const Features& known = models_.views()[static_cast<std::size_t>(view)].view->features;
+  return read_row(known.descriptors, feature, row_);
+}
+
+float descriptor_distance(const cv::Mat& descriptors, int i, const float* other) {
   float distance = 0;
-  distances(a.ptr<float>(row_a), &row, 1, static_cast<std::size_t>(a.cols), &distance);
+  distances(descriptors.ptr<float>(i), &other, 1, static_cast<std::size_t>(descriptors.cols),
+            &distance);
   return distance;
 }
 

@@ -22,12 +22,15 @@ class SceneRivals {
   /// features than `rank` the farthest.
   [[nodiscard]] Reference reference(int view, int feature);
 
+  /// Descriptor of a taught feature as 32-bit floats; valid until the next call of a member.
+  [[nodiscard]] const float* taught_row(int view, int feature);
+
  private:
   const ModelSet& models_;
   std::vector<const float*> rows_;  ///< descriptors of the scene
   std::size_t dimension_, rank_;
   std::vector<std::vector<float>> distances_;  ///< by view and feature; negative: not computed yet
-  std::vector<float> to_all_, nearest_;        ///< buffers
+  std::vector<float> to_all_, nearest_, row_;  ///< buffers
 };
 
 /// References only: what they name must outlive it.
@@ -40,7 +43,7 @@ struct SceneContext {
   const ScenePyramid& pyramid;
 };
 
-/// Euclidean distance of two descriptors: row `row_a` of a and `row_b` of b, CV_32F of one length.
-[[nodiscard]] float descriptor_distance(const cv::Mat& a, int row_a, const cv::Mat& b, int row_b);
+/// Euclidean distance of row `i` of `descriptors`, CV_32F, and another one of their length.
+[[nodiscard]] float descriptor_distance(const cv::Mat& descriptors, int i, const float* other);
 
 }  // namespace posevote

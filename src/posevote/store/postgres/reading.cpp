@@ -206,6 +206,7 @@ std::shared_ptr<const View> PostgresStore::load_view(std::int64_t id,
         work_->exec_params1("SELECT picture, mask FROM posevote.view WHERE id = $1", id);
     return std::pair(blob_of(pictures[0]), blob_of(pictures[1]));
   };
+  halve_descriptors(view.features);
   add_pictures(view, {patch.data(), patch.size()}, options.pictures, fetch, location_);
   return std::make_shared<const View>(std::move(view));
 }

@@ -122,6 +122,7 @@ std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id,
   const auto fetch = [&] {
     return std::pair(copy_of(row.getColumn("picture")), copy_of(row.getColumn("mask")));
   };
+  halve_descriptors(view.features);
   add_pictures(view, stored, options.pictures, fetch, path_);
   return std::make_shared<const View>(std::move(view));
 }

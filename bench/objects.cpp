@@ -31,7 +31,8 @@ struct Settings {
   std::string dataset, folder,
       measured;  ///< measured: the database to measure, in a process of its own
   std::vector<int> objects{25, 1000};
-  int views = 12, features_per_view = 300, tests = 40, scene_features = 1000;
+  std::vector<double> deadlines;  ///< ms
+  int views = 12, features_per_view = 180, tests = 40, scene_features = 1000, threads = 1;
 };
 
 FeatureOptions view_features(const Settings& settings) {
@@ -105,6 +106,20 @@ double resident_mb(const char* field) {
   return 0;
 }
 
+RecognizeOptions options_of(const Settings& settings) {
+  RecognizeOptions options;
+  options.threads = settings.threads;
+  return options;
+}
+
+Score score(const RecognitionResult& found, const DatasetTest& test, const Dataset& dataset,
+            cv::Size size) {
+  std::vector<Claim> claims;
+  for (const Detection& detection : found.detections)
+    claims.push_back({detection.object, detection.box, detection.probability});
+  return score_claims(claims, test, dataset, size);
+}
+
 /// Times of the scenes, once with `scene_features` and once with as many as are found by default.
 json time_scenes(const Settings& settings, const Recognizer& recognizer, const Dataset& dataset) {
   json result;
@@ -112,6 +127,7 @@ json time_scenes(const Settings& settings, const Recognizer& recognizer, const D
   std::vector<double> match, total, match_all, total_all;
   FeatureOptions few = recognizer.options().feature;
   few.max_features = settings.scene_features;
+  few.surf.threads = settings.threads;
   const auto extractor = make_extractor(few);
   for (const DatasetTest& test : dataset.tests) {
     const cv::Mat image = cv::imread(dataset.path(test.image).string());
@@ -129,13 +145,10 @@ json time_scenes(const Settings& settings, const Recognizer& recognizer, const D
       match_all.push_back(found.time_ms.match);
       total_all.push_back(found.time_ms.total);
     }
-    std::vector<Claim> claims;
-    for (const Detection& detection : found.detections)
-      claims.push_back({detection.object, detection.box, detection.probability});
-    const Score score = score_claims(claims, test, dataset, image.size());
-    asked += score.asked;
-    right += score.right;
-    wrong += score.false_positives;
+    const Score scored = score(found, test, dataset, image.size());
+    asked += scored.asked;
+    right += scored.right;
+    wrong += scored.false_positives;
   }
   return {{"asked", asked},
           {"right", right},
@@ -146,22 +159,57 @@ json time_scenes(const Settings& settings, const Recognizer& recognizer, const D
           {"recognition_ms", median(total_all)}};
 }
 
+/// What is found in so much time, and whether it is kept.
+json time_deadlines(const Settings& settings, const std::shared_ptr<const ModelSet>& models,
+                    const std::string& prepared, const Dataset& dataset) {
+  json rows = json::array();
+  for (const double deadline : settings.deadlines) {
+    RecognizeOptions options = options_of(settings);
+    options.deadline_ms = deadline;
+    const Recognizer recognizer(models, options, prepared);
+    int right = 0, wrong = 0, incomplete = 0;
+    std::vector<double> total;
+    for (const DatasetTest& test : dataset.tests) {
+      const cv::Mat image = cv::imread(dataset.path(test.image).string());
+      for (int round = 0; round < 3; ++round) {
+        const RecognitionResult found = recognizer.recognize(image);
+        total.push_back(found.time_ms.total);
+        if (round > 0) continue;
+        const Score scored = score(found, test, dataset, image.size());
+        right += scored.right;
+        wrong += scored.false_positives;
+        incomplete += found.incomplete ? 1 : 0;
+      }
+    }
+    rows.push_back({{"deadline_ms", deadline},
+                    {"median_ms", median(total)},
+                    {"longest_ms", *std::max_element(total.begin(), total.end())},
+                    {"late", std::count_if(total.begin(), total.end(),
+                                           [&](double ms) { return ms > 1.1 * deadline; })},
+                    {"answers", total.size()},
+                    {"incomplete", incomplete},
+                    {"right", right},
+                    {"false_positives", wrong}});
+  }
+  return rows;
+}
+
 /// Opens a database as a program does when it starts, and asks it.
 json measure(const Settings& settings, const Dataset& dataset) {
   const cv::Mat first = cv::imread(dataset.path(dataset.tests.front().image).string());
   Stopwatch watch;
   const auto store = open_store(settings.measured, Access::existing);
-  RecognizeOptions options;
   const std::int64_t version = store->version();
   auto models = store->load();
   const double load_ms = watch.lap();
-  const auto recognizer = make_recognizer(*store, version, models, options);
+  const auto recognizer = make_recognizer(*store, version, models, options_of(settings));
   const double prepare_ms = watch.lap();
   (void)recognizer->recognize(first);
   const double answer_ms = watch.lap();
   json result = time_scenes(settings, *recognizer, dataset);
   result["resident_mb"] = resident_mb("VmRSS:");
   result["peak_mb"] = resident_mb("VmHWM:");
+  result["deadlines"] = time_deadlines(settings, models, recognizer->save_prepared(), dataset);
   cv::RNG random(3);
   const std::string name = models->objects().front().name;
   const TaughtView source = store->view(name, store->views(name).front().id);
@@ -229,7 +277,9 @@ int run(const Settings& settings, const std::string& program, const std::string&
     fill(settings, real, dataset, count, file);
     std::ostringstream command;
     command << '"' << program << "\" --dataset \"" << settings.dataset << "\" --measure \"" << file
-            << "\" --tests " << settings.tests << " --scene-features " << settings.scene_features;
+            << "\" --tests " << settings.tests << " --scene-features " << settings.scene_features
+            << " --threads " << settings.threads;
+    for (const double deadline : settings.deadlines) command << " --deadlines " << deadline;
     const json first = measure_apart(command.str());
     json row = measure_apart(command.str());
     row["first_start_s"] = first["first_answer_s"];
@@ -241,6 +291,13 @@ int run(const Settings& settings, const std::string& program, const std::string&
                 row["asked"].get<int>(), row["false_positives"].get<int>(),
                 row["resident_mb"].get<double>(), row["first_start_s"].get<double>(),
                 row["first_answer_s"].get<double>(), row["teach_ms"].get<double>());
+    for (const json& of : row["deadlines"])
+      std::printf(
+          "within %.0f ms: median %.1f, longest %.1f ms, late by more than a tenth %d of %d; "
+          "incomplete %d, right %d, false %d\n",
+          of["deadline_ms"].get<double>(), of["median_ms"].get<double>(),
+          of["longest_ms"].get<double>(), of["late"].get<int>(), of["answers"].get<int>(),
+          of["incomplete"].get<int>(), of["right"].get<int>(), of["false_positives"].get<int>());
     std::fflush(stdout);
     std::filesystem::remove(file);
   }
@@ -263,6 +320,9 @@ int main(int argc, char** argv) {
   app.add_option("--per-view", settings.features_per_view, "Features of a view, at most; 0: all");
   app.add_option("--tests", settings.tests, "Test pictures, 0: all");
   app.add_option("--scene-features", settings.scene_features, "Of the first kind of scene");
+  app.add_option("--threads", settings.threads, "Threads for one picture");
+  app.add_option("--deadlines", settings.deadlines, "Also with so many ms for a picture")
+      ->delimiter(',');
   app.add_option("--folder", settings.folder, "Where databases are made, and removed again");
   app.add_option("--measure", settings.measured, "Only measure this database; prints JSON");
   app.add_option("--svg", svg_file, "Draw the results in this file");

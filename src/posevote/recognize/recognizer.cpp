@@ -5,9 +5,11 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <set>
+#include <thread>
 
 #include "posevote/core/error.hpp"
 #include "posevote/core/stopwatch.hpp"
+#include "posevote/index/parallel.hpp"
 #include "posevote/match/look_alikes.hpp"
 #include "posevote/recognize/compete.hpp"
 #include "posevote/recognize/consensus.hpp"
@@ -47,21 +49,51 @@ bool is_repeated(const PoseCluster& cluster, std::vector<char>& seen) {
 // verified: the one in hand and the competition that follows need the rest.
 constexpr double kMatchingEnds = 0.6, kVerifyingEnds = 0.85;
 
+std::vector<const PoseCluster*> choose_clusters(const std::vector<PoseCluster>& clusters,
+                                                std::size_t matches, int most) {
+  std::vector<const PoseCluster*> chosen;
+  std::vector<char> seen(matches, 0);
+  for (const PoseCluster& cluster : clusters) {
+    if (static_cast<int>(chosen.size()) == most) break;
+    if (!is_repeated(cluster, seen)) chosen.push_back(&cluster);
+  }
+  return chosen;
+}
+
 std::vector<Hypothesis> verify_all(const std::vector<PoseCluster>& clusters,
                                    const SceneContext& scene, const RecognizeOptions& options,
                                    const Deadline& deadline, bool& incomplete) {
-  std::vector<Hypothesis> found;
-  std::vector<char> seen(scene.matches.size(), 0);
-  for (const PoseCluster& cluster : clusters) {
-    if (static_cast<int>(found.size()) == options.max_hypotheses) break;
-    if (deadline.passed(kVerifyingEnds)) {
-      incomplete = true;
-      break;
+  const auto chosen = choose_clusters(clusters, scene.matches.size(), options.max_hypotheses);
+  std::vector<Hypothesis> found(chosen.size());
+  std::atomic<std::size_t> next = 0;
+  const auto verify_some = [&](SceneRivals& rivals) {
+    const SceneContext own{scene.models, scene.neighborhood, scene.grid, scene.matches,
+                           rivals,       scene.pyramid};
+    while (!deadline.passed(kVerifyingEnds)) {
+      const std::size_t i = next++;
+      if (i >= chosen.size()) break;
+      found[i] = verify_cluster(*chosen[i], own, options.verify);
     }
-    if (!is_repeated(cluster, seen))
-      found.push_back(verify_cluster(cluster, scene, options.verify));
-  }
+  };
+  const auto threads = std::min(chosen.size(), static_cast<std::size_t>(options.threads));
+  parallel(static_cast<int>(threads), threads, [&](std::size_t begin, std::size_t) {
+    if (begin == 0) return verify_some(scene.rivals);
+    SceneRivals rivals(scene.models, scene.grid.features(), options.verify.evidence.rivals);
+    verify_some(rivals);
+  });
+  const std::size_t done = std::min(next.load(), chosen.size());  // all before it are, too
+  incomplete = incomplete || done < chosen.size();
+  found.resize(done);
   return found;
+}
+
+/// Throws as `validate_options`.
+RecognizeOptions completed(RecognizeOptions options) {
+  validate_options(options);
+  if (options.threads == 0)
+    options.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
+  if (options.threads > 1) options.feature.surf.threads = options.index.threads = options.threads;
+  return options;
 }
 
 Detection describe(const Hypothesis& hypothesis, const SceneContext& scene) {
@@ -155,6 +187,8 @@ void RecognizeOptions::describe(OptionList& list) {
            "hypotheses go first, and the result says when it is incomplete.");
   list.add("max_overlap", max_overlap, {0, 1}, "",
            "Overlap (intersection over union) beyond which two detections of one object are one.");
+  list.add("threads", threads, {0, 64}, "",
+           "Threads for one picture, in all steps; 0 uses one per core. The answer is the same.");
   list.add("unknown", unknown,
            "Also report textured parts of the picture that no object explains.");
   list.group("feature", feature);
@@ -254,9 +288,8 @@ RecognitionResult Recognizer::State::run(const Snapshot& now, const Features& sc
 Recognizer::Recognizer(std::shared_ptr<const ModelSet> models, const RecognizeOptions& options,
                        const std::string& prepared)
     : state_(std::make_unique<State>()) {
-  validate_options(options);
-  state_->options = options;
-  state_->extractor = make_extractor(options.feature);
+  state_->options = completed(options);
+  state_->extractor = make_extractor(state_->options.feature);
   state_->prepare(std::move(models), prepared);
 }
 

@@ -76,6 +76,9 @@ struct RecognizeOptions {
   PaperOptions paper;
   int max_hypotheses = 400;  ///< clusters looked at per scene, strongest first
   bool unknown = false;      ///< also report what no object explains
+  /// For one picture, 0: one per core. More than one also replaces `feature.surf.threads` and
+  /// `index.threads`. The answer is the same for any number.
+  int threads = 1;
   /// Time for a picture, 0: as much as it takes. The strongest features are matched and the
   /// strongest hypotheses verified first; what is left then is left out, so that answers depend on
   /// the machine. Features are extracted in any case: that must fit.

@@ -242,6 +242,24 @@ TEST(Recognizer, GivesTheSameAnswerAgain) {
   EXPECT_EQ(first.detections[0].log10_false_alarms, second.detections[0].log10_false_alarms);
 }
 
+TEST(Recognizer, GivesTheSameAnswerForAnyNumberOfThreads) {
+  const cv::Mat scene = scene_with({turned(0, 0.9, {200, 320}), turned(15, 0.9, {560, 320})});
+  RecognizeOptions options = options_of();
+  const auto one = Recognizer(poster_model(), options).recognize(scene);
+  ASSERT_EQ(one.detections.size(), 2U);
+  for (const int threads : {0, 2, 3, 64}) {
+    options.threads = threads;
+    const auto several = Recognizer(poster_model(), options).recognize(scene);
+    ASSERT_EQ(several.detections.size(), one.detections.size()) << threads;
+    EXPECT_EQ(several.counts.matched, one.counts.matched);
+    for (std::size_t i = 0; i < one.detections.size(); ++i) {
+      EXPECT_EQ(several.detections[i].log10_false_alarms, one.detections[i].log10_false_alarms);
+      EXPECT_EQ(several.detections[i].probability, one.detections[i].probability);
+      EXPECT_EQ(several.detections[i].outline, one.detections[i].outline);
+    }
+  }
+}
+
 TEST(Recognizer, ATimeBudgetThatIsSpentLeavesAnIncompleteResult) {
   RecognizeOptions options = options_of();
   const cv::Mat scene = scene_with({turned(0, 1, {400, 320})});

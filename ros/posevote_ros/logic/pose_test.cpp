@@ -128,7 +128,9 @@ TEST(FindPose, KnowsTheTurnOfACanByItsRelief) {
     EXPECT_FALSE(found->flat);
     EXPECT_TRUE(flat->flat);
     EXPECT_LT(degrees_between(found->pose.rotation, turned), 3) << yaw;
-    if (yaw == 0) EXPECT_GT(degrees_between(flat->pose.rotation, turned), 15);
+    if (yaw == 0) {
+      EXPECT_GT(degrees_between(flat->pose.rotation, turned), 15);
+    }
     // Its front is a radius nearer than its middle.
     EXPECT_NEAR(found->pose.translation[2], 0.8 - 0.06, 0.015) << yaw;
   }

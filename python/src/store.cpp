@@ -249,7 +249,7 @@ void bind_writing(py::class_<PyStore, std::shared_ptr<PyStore>>& store) {
 }  // namespace
 
 void bind_store(py::module_& module) {
-  module.def("_without_passwords", &without_passwords);
+  module.def("_without_passwords", [](const std::string& text) { return without_passwords(text); });
   py::class_<PyStore, std::shared_ptr<PyStore>> store(
       module, "ObjectStore",
       "A database of taught objects.\n\n"

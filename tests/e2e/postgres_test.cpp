@@ -16,6 +16,7 @@
 namespace posevote {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -106,16 +107,31 @@ TEST_F(SharedDatabase, NoPasswordIsInTheListOfProcesses) {
   socklen_t size = sizeof place;
   getsockname(listener, reinterpret_cast<sockaddr*>(&place), &size);
   const std::string port = std::to_string(ntohs(place.sin_port));
-  const pid_t child =
-      start({"objects", "list", "--db", "postgresql://robot:secret@127.0.0.1:" + port + "/db"});
-  const int call = accept(listener, nullptr, nullptr);
-  const std::string words = content("/proc/" + std::to_string(child) + "/cmdline");
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-  close(call);
+  for (const std::string password :
+       {"secret", "a?secret", "it's secret", "\"secret\"", "%25secret"})
+    for (const std::string& address : {"robot:" + password + "@127.0.0.1:" + port + "/db",
+                                       "robot@127.0.0.1:" + port + "/db?sslpassword=" + password}) {
+      const pid_t child = start({"objects", "list", "--db", "postgresql://" + address});
+      const int call = accept(listener, nullptr, nullptr);
+      const std::string words = content("/proc/" + std::to_string(child) + "/cmdline");
+      kill(child, SIGKILL);
+      waitpid(child, nullptr, 0);
+      close(call);
+      EXPECT_THAT(words, AllOf(HasSubstr("***"), Not(HasSubstr("secret"))));
+    }
   close(listener);
-  EXPECT_THAT(words, HasSubstr("robot:***@127.0.0.1"));
-  EXPECT_THAT(words, Not(HasSubstr("secret")));
+}
+
+TEST_F(SharedDatabase, NoPasswordIsSaid) {
+  for (const std::string address :
+       {"robot:a?secret@127.0.0.1:1/db", "robot:100%secret@127.0.0.1/db",
+        "robot:it's secret@127.0.0.1:1/db", "127.0.0.1:1/db?password=a secret"})
+    for (const Outcome& outcome :
+         {run({"objects", "list", "--db", "postgresql://" + address}),
+          run({"objects", "list", "postgresql://" + address}), run({"postgresql://" + address})}) {
+      EXPECT_NE(outcome.status, 0);
+      EXPECT_THAT(outcome.out + outcome.err, AllOf(HasSubstr("***"), Not(HasSubstr("secret"))));
+    }
 }
 
 }  // namespace

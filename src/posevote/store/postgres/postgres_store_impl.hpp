@@ -55,7 +55,7 @@ class PostgresStore : public ObjectStore {
   template <class Work>
   std::invoke_result_t<Work> reading(Work work) const {
     const std::lock_guard lock(mutex_);
-    return guarded(location_, [&] {
+    return guarded(location_, address_, [&] {
       if (work_) return work();
       const auto once = [&] {
         Snapshot snapshot(link().connection);

@@ -27,7 +27,7 @@ PostgresStore::PostgresStore(const std::string& address, const PostgresOptions& 
     : address_(complete_address(address, options)),
       location_(without_passwords(address)),
       options_(options) {
-  guarded(location_, [&] { prepare(options.access); });
+  guarded(location_, address_, [&] { prepare(options.access); });
 }
 
 Link& PostgresStore::link() const {
@@ -94,7 +94,7 @@ std::int64_t PostgresStore::version() const {
 bool PostgresStore::wait_for_change(std::int64_t known, std::chrono::milliseconds timeout) const {
   using std::chrono::microseconds;
   const std::lock_guard lock(listening_);
-  return guarded(location_, [&] {
+  return guarded(location_, address_, [&] {
     try {
       if (!listener_) listener_ = std::make_unique<Listener>(address_);
       pqxx::connection& connection = listener_->connection;

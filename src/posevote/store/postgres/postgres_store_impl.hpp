@@ -1,6 +1,7 @@
 // Declaration of the PostgreSQL store; reading.cpp and writing.cpp define it.
 #pragma once
 
+#include <map>
 #include <mutex>
 
 #include "posevote/store/blob.hpp"
@@ -89,6 +90,7 @@ class PostgresStore : public ObjectStore {
   std::shared_ptr<const View> load_view(std::int64_t row, const LoadOptions& options) const;
   std::vector<std::shared_ptr<const View>> load_views(std::int64_t object,
                                                       const LoadOptions& options) const;
+  std::vector<Features> load_impostors() const;
   std::string insert_view(std::int64_t object, const TaughtView& view, const std::string& identity,
                           const std::string& signature);
   void rebuild_view(std::int64_t row, const FeatureRecord& features, const FeatureMaker& maker);
@@ -100,6 +102,7 @@ class PostgresStore : public ObjectStore {
   mutable std::unique_ptr<Link> link_;
   mutable pqxx::transaction_base* work_ = nullptr;
   mutable ViewCache cache_;
+  mutable std::map<std::string, Features> impostors_;  // those of the last snapshot
   mutable std::mutex listening_;
   mutable std::unique_ptr<Link> listener_;
 };

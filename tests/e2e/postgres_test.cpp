@@ -19,6 +19,10 @@
 #include "posevote/store/sqlite/sqlite_store.hpp"
 #include "posevote/store/sync.hpp"
 #include "program.hpp"
+#ifdef POSEVOTE_WITH_SERVER
+#include "../server/server_process.hpp"
+#include "posevote/store/postgres/relay.hpp"
+#endif
 
 namespace posevote {
 namespace {
@@ -139,6 +143,31 @@ TEST_F(SharedDatabase, ARunningRecogniserLearnsWithoutMissingAFrame) {
     EXPECT_LT(number, 5000) << "the clip is too short for this machine";
   }
 }
+
+#ifdef POSEVOTE_WITH_SERVER
+TEST_F(SharedDatabase, AServerGoesOnWhileItCannotBeReached) {
+  ASSERT_EQ(run({"teach", "poster", demo("train/poster/cover.jpg"), "--db", address_}).status, 0);
+  postgres::Relay relay(server_.socket_path());
+  const ServerProcess server(folder_, {"--db", relay.address(name_), "--state", path("state")});
+  const std::string scene = content(demo("test/reading.jpg"));
+  const auto found = [&] {
+    const auto answer = server.client().Post("/api/recognize", scene, "image/jpeg");
+    return answer && answer->status == 200
+               ? Json::parse(answer->body)["detections"].at(0)["object"].get<std::string>()
+               : "";
+  };
+  EXPECT_EQ(found(), "poster");
+  relay.set_down(true);
+  open_postgres_store(address_)->rename_object("poster", "picture");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(found(), "poster");
+  EXPECT_TRUE(eventually([&] {  // it is told once
+    return content(path("err.txt")).find("cannot be reached") != std::string::npos;
+  }));
+  EXPECT_EQ(found(), "poster");
+  relay.set_down(false);
+  EXPECT_TRUE(eventually([&] { return found() == "picture"; }));
+}
+#endif
 
 #ifdef POSEVOTE_PYTHON_PROGRAM
 TEST_F(SharedDatabase, ABatchReadsItsObjectsFromIt) {

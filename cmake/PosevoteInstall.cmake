@@ -134,6 +134,8 @@ get_cmake_property(CPACK_COMPONENTS_ALL COMPONENTS)
 set(CPACK_DEBIAN_POSEVOTE_PACKAGE_NAME posevote)
 if(TARGET posevote_python)
   math(EXPR next "${POSEVOTE_PYTHON_MINOR} + 1")
+  set(CPACK_DEBIAN_POSEVOTE_PACKAGE_RECOMMENDS
+    "${CPACK_DEBIAN_PACKAGE_RECOMMENDS}, python3-posevote") # posevote batch
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-posevote)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_GENERATE_SHLIBS OFF) # a module is no library to link with

@@ -84,24 +84,10 @@ int run(int argc, char** argv) {
   return context.exit_status;
 }
 
-/// Overwrites passwords in the arguments, which every user of the machine can list; returns what
-/// they were.
-std::vector<std::string> take_arguments(int argc, char** argv) {
-  std::vector<std::string> arguments(argv, argv + argc);
-  for (int i = 1; i < argc; ++i) {
-    const std::string& given = arguments[static_cast<std::size_t>(i)];
-    const std::string shown = posevote::without_passwords(given);
-    if (shown == given) continue;
-    std::fill_n(argv[i], given.size(), '\0');
-    std::copy_n(shown.begin(), std::min(shown.size(), given.size()), argv[i]);
-  }
-  return arguments;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> arguments = take_arguments(argc, argv);
+  std::vector<std::string> arguments = posevote::take_arguments(argc, argv);
   std::vector<char*> words;
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);

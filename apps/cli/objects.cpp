@@ -49,14 +49,15 @@ void list(const ObjectStore& store, bool json, bool names) {
 void show(const ObjectStore& store, const std::string& name, bool json) {
   const auto views = store.views(name);
   Table table;
-  table.header = {"view", "yaw", "picture", "features", "covers", "by", "taught", "from"};
+  table.header = {"view", "yaw",    "picture", "features", "covers",
+                  "by",   "taught", "from",    "version"};
   for (const ViewSummary& view : views) {
     if (json) std::cout << to_line(view_line(name, view)) << '\n';
     table.rows.push_back(
         {view.id, yaw_text(view.yaw_deg),
          std::to_string(view.image_size.width) + " x " + std::to_string(view.image_size.height),
          std::to_string(view.features), percent(view.coverage, 0), view.method,
-         view.provenance.taught_at, view.provenance.source});
+         view.provenance.taught_at, view.provenance.source, view.provenance.version});
   }
   if (!json) std::cout << name << "\n" << table.to_text();
 }

@@ -7,7 +7,6 @@ was stopped goes on where it was; each picture has exactly one line.
 """
 
 import argparse
-import hashlib
 import importlib.util
 import json
 import logging
@@ -20,7 +19,7 @@ from concurrent.futures import CancelledError
 import posevote
 from posevote import _core
 from posevote.batch_results import Results
-from posevote.batch_work import Job, error_line, run_task, tasks_of
+from posevote.batch_work import Job, error_line, objects_hash, run_task, tasks_of
 
 ATTEMPTS_ALONE = 2  # a picture that kills this many workers while nothing else runs is poisonous
 
@@ -163,11 +162,8 @@ def open_client(scheduler, workers):
 
 def belonging(job):
     """What lines in one file have in common."""
-    with posevote.ObjectStore(job.database, "read_only") as store:
-        objects = {o.name: [view.hash for view in store.views(o.name)] for o in store.objects()}
-    known = hashlib.sha256(json.dumps(objects, sort_keys=True).encode()).hexdigest()
     return {
-        "objects": known,
+        "objects": job.objects,
         "preset": job.preset,
         "settings": list(job.settings),
         "every": job.every,
@@ -224,9 +220,11 @@ def parse(arguments):
 
 def run(found):
     database = found.db if "://" in found.db else os.path.abspath(found.db)
-    job = Job(database, os.getcwd(), found.preset, tuple(found.set), found.every)
     # Whatever is wrong with options or database is said before anything is made.
-    posevote.Recognizer({}, preset=job.preset, **_core._settings(job.preset, job.settings))
+    posevote.Recognizer({}, preset=found.preset, **_core._settings(found.preset, found.set))
+    with posevote.ObjectStore(database, "read_only") as store:
+        objects = objects_hash(store)
+    job = Job(database, os.getcwd(), found.preset, tuple(found.set), found.every, objects)
     tied_to = belonging(job)
     tasks = list(tasks_of(found.inputs))
     results = Results(found.out, tied_to, found.restart)

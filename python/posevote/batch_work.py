@@ -1,5 +1,6 @@
 """The work of posevote batch: its tasks, and what a worker does for one."""
 
+import hashlib
 import json
 import sys
 import threading
@@ -21,6 +22,13 @@ class Job:
     preset: str = "default"
     settings: tuple = ()
     every: int = 1
+    objects: str = ""  # `objects_hash` of those that the run began with; "": whatever there is
+
+
+def objects_hash(store):
+    """Names and content of all objects of a store, in short."""
+    objects = {o.name: [view.hash for view in store.views(o.name)] for o in store.objects()}
+    return hashlib.sha256(json.dumps(objects, sort_keys=True).encode()).hexdigest()
 
 
 _recognizers = {}
@@ -34,6 +42,11 @@ def recognizer_of(job):
             with posevote.ObjectStore(job.database, "read_only") as store:
                 options = _core._settings(job.preset, job.settings)
                 made = posevote.Recognizer(store, preset=job.preset, **options)
+                if job.objects and objects_hash(store) != job.objects:
+                    raise posevote.AlreadyExistsError(
+                        f"the objects in '{store.location}' are no longer those that this run "
+                        "began with; name another file, or begin it again with --restart"
+                    )
             _recognizers.clear()  # of an earlier job
             _recognizers[job] = made
         return _recognizers[job]

@@ -7,10 +7,14 @@ only, so their sum is that of the whole. Where detections of different parts cla
 the one that is the least likely to be an accident is right: `join`.
 """
 
-from posevote import _core
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from posevote import Detection, Recognition, _core
 
 
-def _overlap(a, b):
+def _overlap(a: tuple[float, ...], b: tuple[float, ...]) -> float:
     """Intersection over union of two boxes (x, y, width, height)."""
     width = min(a[0] + a[2], b[0] + b[2]) - max(a[0], b[0])
     height = min(a[1] + a[3], b[1] + b[3]) - max(a[1], b[1])
@@ -20,7 +24,9 @@ def _overlap(a, b):
     return shared / (a[2] * a[3] + b[2] * b[3] - shared)
 
 
-def join(results, max_overlap=None):
+def join(
+    results: Iterable[Recognition], max_overlap: float | None = None
+) -> list[Detection]:
     """The detections of all parts' results for one picture, best first, as a list of Detection.
 
     `max_overlap`: intersection over union from which two detections claim the same place; default:

@@ -73,7 +73,7 @@ py::dict summary_dict(const Summary& s) {
 
 void bind_evaluation(py::module_& module) {
   py::class_<Summary>(module, "Summary", "How good recognition was on a group of pictures.")
-      .def_readonly("name", &Summary::name)
+      .def_readonly("name", &Summary::name, "Of the group of pictures.")
       .def_readonly("images", &Summary::images, "Pictures.")
       .def_readonly("unreadable", &Summary::unreadable, "Pictures that could not be read.")
       .def_readonly("asked", &Summary::asked, "Objects that were to be found.")

@@ -31,6 +31,13 @@ void bind_video(py::module_& module) {
       .def_readonly("time_s", &Frame::time_s, "Since the first frame, seconds.")
       .def_property_readonly(
           "image", [](const Frame& f) { return to_array(f.image); }, "H x W x 3, uint8, BGR.")
+      .def(
+          "to_dict",
+          [](const Frame& f) {
+            return py::dict(py::arg("frame") = f.number, py::arg("time_s") = f.time_s,
+                            py::arg("width") = f.image.cols, py::arg("height") = f.image.rows);
+          },
+          "Without its pixels; names as in the lines of 'posevote recognize --json'.")
       .def("__repr__", [](const Frame& f) {
         return "Frame(number=" + std::to_string(f.number) + ", " + std::to_string(f.image.cols) +
                " x " + std::to_string(f.image.rows) + " px)";

@@ -109,11 +109,13 @@ void bind_detection(py::module_& module) {
 
 void bind_stages(py::module_& module) {
   py::class_<StageTimes>(module, "StageTimes", "Milliseconds of each step.")
-      .def_readonly("detect", &StageTimes::detect)
-      .def_readonly("match", &StageTimes::match)
-      .def_readonly("vote", &StageTimes::vote)
-      .def_readonly("verify", &StageTimes::verify)
-      .def_readonly("total", &StageTimes::total)
+      .def_readonly("detect", &StageTimes::detect,
+                    "Finding and describing the picture's features, ms.")
+      .def_readonly("match", &StageTimes::match, "Comparing them with those of all views, ms.")
+      .def_readonly("vote", &StageTimes::vote,
+                    "Grouping the matches by the pose that they speak for, ms.")
+      .def_readonly("verify", &StageTimes::verify, "Fitting poses and judging the evidence, ms.")
+      .def_readonly("total", &StageTimes::total, "All of it, ms.")
       .def("to_dict",
            [](const StageTimes& t) {
              return py::dict(py::arg("detect") = t.detect, py::arg("match") = t.match,
@@ -128,10 +130,11 @@ void bind_stages(py::module_& module) {
         return std::string(text);
       });
   py::class_<StageCounts>(module, "StageCounts", "Numbers of features that survive each step.")
-      .def_readonly("features", &StageCounts::features)
-      .def_readonly("matched", &StageCounts::matched)
-      .def_readonly("clustered", &StageCounts::clustered)
-      .def_readonly("verified", &StageCounts::verified)
+      .def_readonly("features", &StageCounts::features, "Of the picture.")
+      .def_readonly("matched", &StageCounts::matched, "Of them, matched with a feature of a view.")
+      .def_readonly("clustered", &StageCounts::clustered,
+                    "Of those, in a group that agrees on a pose.")
+      .def_readonly("verified", &StageCounts::verified, "Of those, evidence of a detection.")
       .def("to_dict",
            [](const StageCounts& c) {
              return py::dict(py::arg("features") = c.features, py::arg("matched") = c.matched,

@@ -95,10 +95,12 @@ void bind_reading(py::class_<PyStore, std::shared_ptr<PyStore>>& store) {
       .def_property_readonly(
           "location", [](const PyStore& self) { return self.get()->location(); },
           "File name, or address without its password.")
-      .def_property_readonly("read_only",
-                             [](const PyStore& self) {
-                               return with(self, [](ObjectStore& s) { return s.read_only(); });
-                             })
+      .def_property_readonly(
+          "read_only",
+          [](const PyStore& self) {
+            return with(self, [](ObjectStore& s) { return s.read_only(); });
+          },
+          "Whether nothing may be added to it.")
       .def_property_readonly(
           "version",
           [](const PyStore& self) {
@@ -249,7 +251,7 @@ void bind_writing(py::class_<PyStore, std::shared_ptr<PyStore>>& store) {
 }  // namespace
 
 void bind_store(py::module_& module) {
-  module.def("_without_passwords", &without_passwords);
+  module.def("_without_passwords", [](const std::string& text) { return without_passwords(text); });
   py::class_<PyStore, std::shared_ptr<PyStore>> store(
       module, "ObjectStore",
       "A database of taught objects.\n\n"

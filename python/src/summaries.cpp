@@ -8,7 +8,7 @@ namespace {
 
 void bind_object_summary(py::module_& module) {
   py::class_<ObjectSummary>(module, "ObjectSummary", "An object of a database.")
-      .def_readonly("name", &ObjectSummary::name)
+      .def_readonly("name", &ObjectSummary::name, "What it is called.")
       .def_readonly("views", &ObjectSummary::views, "Number of its views.")
       .def_readonly("features", &ObjectSummary::features, "Features of all its views.")
       .def_readonly("first_taught_at", &ObjectSummary::first_taught_at, "UTC, ISO 8601.")
@@ -25,7 +25,7 @@ void bind_object_summary(py::module_& module) {
 
 void bind_view_summary(py::module_& module) {
   py::class_<ViewSummary>(module, "ViewSummary", "A view of a database, without its pictures.")
-      .def_readonly("id", &ViewSummary::id)
+      .def_readonly("id", &ViewSummary::id, "Its name within the object.")
       .def_readonly("hash", &ViewSummary::hash, "Content hash: equal for equal content.")
       .def_property_readonly(
           "yaw_deg", [](const ViewSummary& v) { return number_or_none(v.yaw_deg); },
@@ -75,7 +75,8 @@ void bind_summaries(py::module_& module) {
       });
   py::class_<TransferResult>(module, "TransferResult", "What was copied.")
       .def_readonly("objects", &TransferResult::objects, "Objects copied.")
-      .def_readonly("views_added", &TransferResult::views_added)
+      .def_readonly("views_added", &TransferResult::views_added,
+                    "Views that were not there before.")
       .def_readonly("views_known", &TransferResult::views_known, "Views that were there already.")
       .def("to_dict",
            [](const TransferResult& r) {

@@ -141,6 +141,37 @@ def test_a_worker_that_dies_is_replaced(database, pictures, tmp_path):
     assert [without_times(line) for line in lines_of(out)] == list(expected(pictures, database))
 
 
+TEACHER = """
+import posevote
+with posevote.ObjectStore({database!r}) as store:
+    store.teach("mug", {picture!r})
+"""
+
+
+def test_a_worker_that_would_look_for_other_objects_ends_the_run(database, pictures, tmp_path):
+    own = shutil.copy(database, tmp_path / "own.db")
+    shutil.move(pictures / "4.jpg", pictures / "4 poison.jpg")
+    script = KILLER.format(antidote=str(tmp_path / "antidote"), once=True)
+    teacher = TEACHER.format(database=str(own), picture=str(DEMO / "train/mug/y000.jpg"))
+    before_killing = "        os.kill("
+    assert before_killing in script
+    indented = "".join(f"        {line}\n" for line in teacher.strip().splitlines())
+    killer = tmp_path / "killer.py"
+    killer.write_text(script.replace(before_killing, indented + before_killing))
+    out = tmp_path / "out.jsonl"
+    arguments = (pictures, "--db", own, "--out", out, "--workers", 1)
+    done = run(*arguments, killer=killer)
+    assert done.returncode == 1
+    said = [line for line in done.stderr.splitlines() if " - INFO - " not in line]  # Dask's
+    assert len(said) == 1 and "no longer those" in said[0], done.stderr
+    assert len(lines_of(out)) == 4  # those before
+    again = run(*arguments)
+    assert again.returncode == 1 and "--restart" in again.stderr
+    assert len(lines_of(out)) == 4
+    assert len(run(*arguments, "--restart").stderr.splitlines()) == 1  # a picture is damaged
+    assert len(lines_of(out)) == 10
+
+
 def test_a_picture_that_kills_workers_is_set_aside(database, pictures, tmp_path):
     shutil.move(pictures / "4.jpg", pictures / "4 poison.jpg")
     killer = tmp_path / "killer.py"

@@ -5,6 +5,7 @@ import inspect
 from pathlib import Path
 
 import posevote
+from posevote import split
 
 PACKAGE = Path(posevote.__file__).parent
 STUBS = ast.parse((PACKAGE / "__init__.pyi").read_text(encoding="utf-8"))
@@ -68,3 +69,17 @@ def test_everything_public_is_documented():
             assert thing.__doc__ and len(thing.__doc__.strip()) > 10, name
             if inspect.isclass(thing):
                 assert thing.__module__.startswith("posevote") and "_core" not in thing.__module__
+
+
+def test_properties_are_documented():
+    for name in CLASSES:
+        for member in own(getattr(posevote, name, object)):
+            thing = vars(getattr(posevote, name))[member]
+            if isinstance(thing, property):
+                assert thing.__doc__, f"{name}.{member}"
+
+
+def test_what_has_no_stub_says_its_types():
+    signature = inspect.signature(split.join)
+    assert all(p.annotation is not p.empty for p in signature.parameters.values())
+    assert signature.return_annotation == "list[Detection]"

@@ -62,7 +62,11 @@ TEST_F(Commands, EveryWayToSayWhereTheObjectIsWorks) {
   EXPECT_EQ(Json::parse(list.lines()[0])["views"], 2);
   const Outcome show = run({"objects", "show", "a", "--json"});
   EXPECT_EQ(Json::parse(show.lines()[1])["yaw"], -36);
-  EXPECT_EQ(Json::parse(show.lines()[1])["method"], "background");
+  const Json second = Json::parse(show.lines()[1]);
+  EXPECT_EQ(second["method"], "background");
+  const std::string text = run({"objects", "show", "a"}).out;
+  for (const char* key : {"taught_at", "source", "version"})
+    EXPECT_THAT(text, HasSubstr(second[key].get<std::string>())) << key;
 }
 
 TEST_F(Commands, TeachingAgainAddsNothingTwice) {

@@ -7,15 +7,27 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <thread>
+
 #include "posevote/json/recognition_json.hpp"
 #include "posevote/store/postgres/test_server.hpp"
 #include "posevote/store/sqlite/sqlite_store.hpp"
 #include "posevote/store/sync.hpp"
 #include "program.hpp"
+#ifdef POSEVOTE_WITH_SERVER
+#include "../server/server_process.hpp"
+#include "posevote/store/postgres/relay.hpp"
+#endif
 
 namespace posevote {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -95,6 +107,83 @@ TEST_F(SharedDatabase, ASyncThatLosesItsConnectionIsSimplyRunAgain) {
   EXPECT_EQ(compare_views(list_views(*here), list_views(*there)).in_both, 30U);
 }
 
+TEST_F(SharedDatabase, ARunningRecogniserLearnsWithoutMissingAFrame) {
+  cv::Mat frame;
+  cv::resize(cv::imread(demo("train/poster/cover.jpg")), frame, {320, 240}, 0, 0, cv::INTER_AREA);
+  {
+    cv::VideoWriter writer(path("clip.avi"), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10,
+                           frame.size());
+    for (int i = 0; i < 5000; ++i) writer.write(frame);
+  }
+  for (const std::string& database : {database(), address_}) {
+    ASSERT_EQ(
+        run({"teach", "soup", demo("train/soup/y000.jpg"), "--whole", "--db", database}).status, 0);
+    const std::string out = path("lines.jsonl");
+    const pid_t child = start({"recognize", path("clip.avi"), "--json", "--db", database}, out);
+    const auto shows = [&](const std::string& word) {
+      return content(out).find(word) != std::string::npos;
+    };
+    const auto wait_for = [&](const std::string& word) {
+      while (!shows(word) && waitpid(child, nullptr, WNOHANG) == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return shows(word);
+    };
+    EXPECT_TRUE(wait_for("\"frame\":3"));
+    EXPECT_FALSE(shows("poster"));
+    ASSERT_EQ(run({"teach", "poster", demo("train/poster/cover.jpg"), "--db", database}).status, 0);
+    EXPECT_TRUE(wait_for("poster"));
+    ASSERT_EQ(run({"objects", "rename", "poster", "picture", "--db", database}).status, 0);
+    EXPECT_TRUE(wait_for("picture"));
+    kill(child, SIGINT);
+    waitpid(child, nullptr, 0);
+    std::ifstream lines(out);
+    int number = 0;
+    for (std::string line; std::getline(lines, line); ++number)
+      ASSERT_EQ(Json::parse(line)["frame"], number);
+    EXPECT_LT(number, 5000) << "the clip is too short for this machine";
+  }
+}
+
+#ifdef POSEVOTE_WITH_SERVER
+TEST_F(SharedDatabase, AServerGoesOnWhileItCannotBeReached) {
+  ASSERT_EQ(run({"teach", "poster", demo("train/poster/cover.jpg"), "--db", address_}).status, 0);
+  postgres::Relay relay(server_.socket_path());
+  const ServerProcess server(folder_, {"--db", relay.address(name_), "--state", path("state")});
+  const std::string scene = content(demo("test/reading.jpg"));
+  const auto found = [&] {
+    const auto answer = server.client().Post("/api/recognize", scene, "image/jpeg");
+    return answer && answer->status == 200
+               ? Json::parse(answer->body)["detections"].at(0)["object"].get<std::string>()
+               : "";
+  };
+  EXPECT_EQ(found(), "poster");
+  relay.set_down(true);
+  open_postgres_store(address_)->rename_object("poster", "picture");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(found(), "poster");
+  EXPECT_TRUE(eventually([&] {  // it is told once
+    return content(path("err.txt")).find("cannot be reached") != std::string::npos;
+  }));
+  EXPECT_EQ(found(), "poster");
+  relay.set_down(false);
+  EXPECT_TRUE(eventually([&] { return found() == "picture"; }));
+}
+#endif
+
+#ifdef POSEVOTE_PYTHON_PROGRAM
+TEST_F(SharedDatabase, ABatchReadsItsObjectsFromIt) {
+  if (std::system("'" POSEVOTE_PYTHON_PROGRAM "' -c 'import distributed' 2>/dev/null") != 0)
+    GTEST_SKIP() << "there is no Dask";
+  server_.run("postgres", "CREATE ROLE \"" + name_ + "\" LOGIN SUPERUSER PASSWORD 'it''s secret?'");
+  const std::string address = server_.loopback(name_, name_ + ":it's secret?");
+  const std::string scene = demo("test/reading.jpg"), out = path("out.jsonl");
+  ASSERT_EQ(run({"teach", "poster", demo("train/poster/cover.jpg"), "--db", address}).status, 0);
+  const Outcome outcome = run({"batch", scene, "--db", address, "--out", out, "--workers", "1"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const Outcome expected = run({"recognize", scene, "--db", address, "--json"});
+  EXPECT_EQ(without_times(content(out)), without_times(expected.lines().at(0)));
+}
+#endif
+
 TEST_F(SharedDatabase, NoPasswordIsInTheListOfProcesses) {
   // A server that takes the call and never answers: the program waits for it.
   const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -106,16 +195,31 @@ TEST_F(SharedDatabase, NoPasswordIsInTheListOfProcesses) {
   socklen_t size = sizeof place;
   getsockname(listener, reinterpret_cast<sockaddr*>(&place), &size);
   const std::string port = std::to_string(ntohs(place.sin_port));
-  const pid_t child =
-      start({"objects", "list", "--db", "postgresql://robot:secret@127.0.0.1:" + port + "/db"});
-  const int call = accept(listener, nullptr, nullptr);
-  const std::string words = content("/proc/" + std::to_string(child) + "/cmdline");
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-  close(call);
+  for (const std::string password :
+       {"secret", "a?secret", "it's secret", "\"secret\"", "%25secret"})
+    for (const std::string& address : {"robot:" + password + "@127.0.0.1:" + port + "/db",
+                                       "robot@127.0.0.1:" + port + "/db?sslpassword=" + password}) {
+      const pid_t child = start({"objects", "list", "--db", "postgresql://" + address});
+      const int call = accept(listener, nullptr, nullptr);
+      const std::string words = content("/proc/" + std::to_string(child) + "/cmdline");
+      kill(child, SIGKILL);
+      waitpid(child, nullptr, 0);
+      close(call);
+      EXPECT_THAT(words, AllOf(HasSubstr("***"), Not(HasSubstr("secret"))));
+    }
   close(listener);
-  EXPECT_THAT(words, HasSubstr("robot:***@127.0.0.1"));
-  EXPECT_THAT(words, Not(HasSubstr("secret")));
+}
+
+TEST_F(SharedDatabase, NoPasswordIsSaid) {
+  for (const std::string address :
+       {"robot:a?secret@127.0.0.1:1/db", "robot:100%secret@127.0.0.1/db",
+        "robot:it's secret@127.0.0.1:1/db", "127.0.0.1:1/db?password=a secret"})
+    for (const Outcome& outcome :
+         {run({"objects", "list", "--db", "postgresql://" + address}),
+          run({"objects", "list", "postgresql://" + address}), run({"postgresql://" + address})}) {
+      EXPECT_NE(outcome.status, 0);
+      EXPECT_THAT(outcome.out + outcome.err, AllOf(HasSubstr("***"), Not(HasSubstr("secret"))));
+    }
 }
 
 }  // namespace

@@ -84,9 +84,9 @@ Outcome Program::run(const std::vector<std::string>& arguments,
   return outcome;
 }
 
-pid_t Program::start(const std::vector<std::string>& arguments) const {
+pid_t Program::start(const std::vector<std::string>& arguments, const std::string& out) const {
   const pid_t child = fork();
-  if (child == 0) become_posevote(open_program(), arguments, database(), "/dev/null", "/dev/null");
+  if (child == 0) become_posevote(open_program(), arguments, database(), out, "/dev/null");
   return child;
 }
 

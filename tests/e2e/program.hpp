@@ -30,8 +30,9 @@ class Program : public testing::Test {
   /// the child process first, e.g. to set limits.
   Outcome run(const std::vector<std::string>& arguments,
               const std::function<void()>& before = {}) const;
-  /// The same without waiting; its output goes nowhere.
-  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const;
+  /// The same without waiting; its output goes to the file `out`.
+  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments,
+                            const std::string& out = "/dev/null") const;
 
   /// Teaches the demo poster; the database must then look the same after whatever goes wrong.
   void teach_poster() const;

@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "posevote/json/recognition_json.hpp"
@@ -78,6 +79,42 @@ TEST_F(SyncCommand, KilledAtAnyMomentItIsSimplyRunAgain) {
   EXPECT_EQ(run({"sync", other_}).status, 0);
   EXPECT_EQ(keys(*here_), keys(*there_));
   EXPECT_EQ(keys(*here_).size(), 40U);
+}
+
+TEST_F(SyncCommand, KilledAmongRemovalsAndRenamesItIsSimplyRunAgain) {
+  for (int i = 100; i < 110; ++i) here_->add_view("jug", made_view(i, 400), features);
+  ASSERT_EQ(run({"sync", other_}).status, 0);
+  here_->rename_object("mug", "pot");
+  for (int i = 0; i < 10; ++i) here_->remove_view("pot", here_->views("pot").front().id);
+  for (int i = 0; i < 5; ++i) there_->remove_view("jug", there_->views("jug").front().id);
+  for (int i = 50; i < 60; ++i)
+    (i % 2 ? here_ : there_)->add_view("cup", made_view(i, 400), features);
+  const std::vector<ViewKey> jugs_there = keys(*there_);
+  std::vector<ViewKey> wanted;
+  for (const ViewKey& key : keys(*here_))
+    if (key.object != "jug" || std::ranges::find(jugs_there, key) != jugs_there.end())
+      wanted.push_back(key);
+  for (const ViewKey& key : keys(*there_))
+    if (key.object == "cup") wanted.push_back(key);
+  std::sort(wanted.begin(), wanted.end());
+  EXPECT_EQ(wanted.size(), 45U);  // 30 pots, 5 jugs, 10 cups
+
+  const auto changes = [&] { return here_->version() + there_->version(); };
+  int killed = 0;
+  for (bool ended = false; !ended;) {
+    const std::int64_t before = changes();
+    const pid_t child = start({"sync", other_});
+    while (!ended && changes() < before + 7) ended = waitpid(child, nullptr, WNOHANG) != 0;
+    if (ended) break;
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    ++killed;
+  }
+  EXPECT_GT(killed, 2);
+  EXPECT_EQ(run({"sync", other_}).status, 0);
+  EXPECT_EQ(keys(*here_), wanted);
+  EXPECT_EQ(keys(*there_), wanted);
+  EXPECT_EQ(json_of({"sync", other_, "--json"})["in_both"], 45);
 }
 
 TEST_F(SyncCommand, WhatCannotBeOpenedIsSaidAndNothingIsChanged) {

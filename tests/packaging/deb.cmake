@@ -13,6 +13,8 @@ if(WITH_APPS)
   expect("contents" "/usr/share/man/man1/posevote.1")
 endif()
 if(WITH_PYTHON)
+  run("dpkg-deb --field" dpkg-deb --field ${package} Recommends)
+  expect("Recommends" "python3-posevote")
   file(GLOB package ${WORK}/deb/python3-posevote_*.deb)
   run("dpkg-deb --field" dpkg-deb --field ${package} Depends)
   expect("Depends" "python3-numpy")
@@ -20,4 +22,14 @@ if(WITH_PYTHON)
   run("dpkg-deb --contents" dpkg-deb --contents ${package})
   expect("contents" "/usr/lib/python3/dist-packages/posevote/_core[^ ]*.so")
   expect("contents" "/usr/lib/python3/dist-packages/posevote/__init__.pyi")
+  run("dpkg-deb --extract" dpkg-deb --extract ${package} ${WORK}/deb/python)
+  set(packages ${WORK}/deb/python/usr/lib/python3/dist-packages)
+  run("the package's recognition" ${CMAKE_COMMAND} -E env PYTHONPATH=${packages} ${PYTHON} -c "
+import sys, posevote
+assert posevote.__file__.startswith('${packages}'), posevote.__file__
+taught = posevote.teach_view(sys.argv[1])
+for found in posevote.Recognizer({'poster': [taught]}).recognize(posevote.read_image(sys.argv[2])):
+    print('found', found.object)
+" ${SOURCE}/data/demo/train/poster/cover.jpg ${SOURCE}/data/demo/test/reading.jpg)
+  expect("the package's recognition" "found poster")
 endif()

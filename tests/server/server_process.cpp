@@ -31,10 +31,13 @@ Json parse(const httplib::Result& result, const std::string& what) {
 
 ServerProcess::ServerProcess(const std::string& folder, const std::vector<std::string>& arguments,
                              const std::map<std::string, std::string>& environment) {
-  std::vector<std::string> words{POSEVOTE_PROGRAM, "serve", "--db", folder + "/objects.db"};
+  std::vector<std::string> words{POSEVOTE_PROGRAM, "serve"};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  if (std::ranges::find(arguments, "--listen") == arguments.end())
-    words.insert(words.end(), {"--listen", "127.0.0.1:0"});
+  const std::pair<std::string, std::string> defaults[]{{"--db", folder + "/objects.db"},
+                                                       {"--listen", "127.0.0.1:0"}};
+  for (const auto& [option, value] : defaults)
+    if (std::ranges::find(arguments, option) == arguments.end())
+      words.insert(words.end(), {option, value});
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

@@ -33,7 +33,8 @@ inline bool eventually(const std::function<bool()>& condition) {
 /// A running server; killed when it goes. Its output goes to files in `folder`.
 class ServerProcess {
  public:
-  /// `arguments` follow `posevote serve --db FOLDER/objects.db`; without --listen any free port.
+  /// `arguments` follow `posevote serve`; without --db with FOLDER/objects.db, without --listen on
+  /// any free port.
   ServerProcess(const std::string& folder, const std::vector<std::string>& arguments,
                 const std::map<std::string, std::string>& environment = {});
   ~ServerProcess();

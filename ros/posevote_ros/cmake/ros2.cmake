@@ -19,11 +19,16 @@ ament_target_dependencies(posevote_ros_component PUBLIC ${used})
 target_compile_options(posevote_ros_component PRIVATE -Wall -Wextra)
 # The library posevote may be anywhere.
 set_target_properties(posevote_ros_component PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
-rclcpp_components_register_node(posevote_ros_component
-  PLUGIN "posevote::ros2::Node" EXECUTABLE posevote_node)
+rclcpp_components_register_nodes(posevote_ros_component "posevote::ros2::Node")
+
+add_executable(posevote_node ros2/main.cpp)
+target_include_directories(posevote_node PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(posevote_node PRIVATE posevote_ros_component posevote_ros_logic)
+set_target_properties(posevote_node PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 
 install(TARGETS posevote_ros_component
   ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)
+install(TARGETS posevote_node RUNTIME DESTINATION lib/${PROJECT_NAME})
 install(DIRECTORY launch rviz config DESTINATION share/${PROJECT_NAME}
   FILES_MATCHING PATTERN *.launch.py PATTERN ros2.rviz PATTERN *.yaml)
 install(PROGRAMS scripts/import_pictures scripts/make_demo_bag.py scripts/studio

@@ -94,50 +94,70 @@ int DatabaseState::place_of(const std::string& object) const {
   return -1;
 }
 
-ObjectRecognition::ObjectRecognition(const Settings& settings)
-    : store_(open_database(settings)), version_(store_->version()) {
-  const NodeOptions options = starting_options(settings, *store_);
-  tracker_.set_options(options.track);
-  make_recognizer(options);
+ObjectRecognition::ObjectRecognition(const Settings& settings) : store_(open_database(settings)) {
+  Known first;
+  first.options = starting_options(settings, *store_);
+  first.heights = parse_heights(first.options.object_heights);
+  first.database = read_state({});
+  first.recognizer = std::make_shared<Recognizer>(store_->load(), first.options.recognize);
+  tracker_.set_options(first.options.track);
+  const std::int64_t version = first.database.version;
+  set_known(std::move(first), true);
+  follower_.emplace(store_, version, [this](const auto&) {
+    const std::lock_guard lock(changing_);
+    follow_database();
+  });
 }
 
-void ObjectRecognition::make_recognizer(const NodeOptions& options) {
-  auto made =
-      std::make_shared<Recognizer>(select_objects(store_->load(), active_), options.recognize);
-  recognizer_ = std::move(made);
-  options_ = options;
-  heights_ = parse_heights(options.object_heights);
+DatabaseState ObjectRecognition::read_state(const std::vector<std::string>& active) const {
+  DatabaseState state;
+  state.version = store_->version();  // what is changed from now on counts as new
+  state.location = store_->location();
+  state.read_only = store_->read_only();
+  state.objects = store_->list();
+  state.active = active;
+  if (const auto record = store_->features()) state.features = recorded_options(*record).kind;
+  return state;
+}
+
+void ObjectRecognition::reload(const std::vector<std::string>& active) {
+  Known next = *known();
+  next.database = read_state(active);
+  const auto record = store_->features();
+  const auto models = select_objects(store_->load(), active);
+  if (record && record->signature != next.options.recognize.feature.signature()) {
+    // Taught or rebuilt with other features by another program.
+    next.options.recognize.feature = next.options.teach.feature = recorded_options(*record);
+    next.recognizer = std::make_shared<Recognizer>(models, next.options.recognize);
+  } else {
+    next.recognizer->set_models(models);
+  }
+  set_known(std::move(next), true);
 }
 
 void ObjectRecognition::follow_database() {
-  const std::int64_t version = store_->version();
-  if (version == version_) return;
-  const auto record = store_->features();
-  if (record && record->signature != options_.recognize.feature.signature()) {
-    // Taught or rebuilt with other features by another program.
-    NodeOptions options = options_;
-    options.recognize.feature = options.teach.feature = recorded_options(*record);
-    make_recognizer(options);
-  } else {
-    recognizer_->set_models(select_objects(store_->load(), active_));
-  }
-  version_ = version;
-  changed_ = true;
+  const DatabaseState state = known()->database;
+  if (store_->version() != state.version) reload(state.active);
 }
 
-ObjectRecognition::Snapshot ObjectRecognition::snapshot() {
+std::shared_ptr<const ObjectRecognition::Known> ObjectRecognition::known() const {
   const std::lock_guard lock(mutex_);
-  follow_database();
-  return {recognizer_, options_, heights_};
+  return known_;
 }
 
-bool ObjectRecognition::refresh() {
+void ObjectRecognition::set_known(Known known, bool changed) {
+  auto next = std::make_shared<const Known>(std::move(known));
   const std::lock_guard lock(mutex_);
-  follow_database();
+  known_.swap(next);
+  changed_ = changed_ || changed;
+}
+
+bool ObjectRecognition::changed() {
+  const std::lock_guard lock(mutex_);
   return std::exchange(changed_, false);
 }
 
-void ObjectRecognition::add_poses(const Snapshot& with, const std::optional<Camera>& camera,
+void ObjectRecognition::add_poses(const Known& with, const std::optional<Camera>& camera,
                                   Findings& findings) {
   if (!camera || !camera->is_calibrated()) return;
   Camera used = scale_camera(*camera, findings.result.image_size);
@@ -160,12 +180,12 @@ void ObjectRecognition::add_poses(const Snapshot& with, const std::optional<Came
 
 Findings ObjectRecognition::recognize_once(const cv::Mat& picture,
                                            const std::optional<Camera>& camera) {
-  const Snapshot with = snapshot();
+  const auto with = known();
   Findings findings;
-  findings.result = with.recognizer->recognize(picture);
+  findings.result = with->recognizer->recognize(picture);
   for (const Detection& detection : findings.result.detections)
     findings.objects.push_back({detection, {}, "", std::nullopt, {}});
-  add_poses(with, camera, findings);
+  add_poses(*with, camera, findings);
   return findings;
 }
 
@@ -186,8 +206,7 @@ Findings ObjectRecognition::recognize(const cv::Mat& picture, const std::optiona
 }
 
 NodeOptions ObjectRecognition::options() const {
-  const std::lock_guard lock(mutex_);
-  return options_;
+  return known()->options;
 }
 
 void ObjectRecognition::set(const Settings& settings) {
@@ -196,40 +215,36 @@ void ObjectRecognition::set(const Settings& settings) {
       throw Error(
           ErrorCode::invalid_argument,
           "option '" + name + "' is read when the node starts; start it again to change it");
-  const std::lock_guard lock(mutex_);
-  const NodeOptions options = with_settings(options_, settings);
-  make_recognizer(options);
+  const std::lock_guard lock(changing_);
+  Known next = *known();
+  next.options = with_settings(next.options, settings);
+  next.heights = parse_heights(next.options.object_heights);
+  next.recognizer = std::make_shared<Recognizer>(next.recognizer->models(), next.options.recognize);
+  const TrackOptions track = next.options.track;
+  set_known(std::move(next), false);
   const std::lock_guard tracker_lock(tracker_mutex_);
-  tracker_.set_options(options.track);
+  tracker_.set_options(track);
 }
 
 DatabaseState ObjectRecognition::database() const {
-  const std::lock_guard lock(mutex_);
-  DatabaseState state;
-  state.location = store_->location();
-  state.version = store_->version();
-  state.read_only = store_->read_only();
-  state.objects = store_->list();
-  state.active = active_;
-  if (const auto record = store_->features()) state.features = recorded_options(*record).kind;
+  DatabaseState state = known()->database;
+  state.problem = follower_->problem();
   return state;
 }
 
 void ObjectRecognition::set_active(const std::vector<std::string>& names) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   const auto objects = store_->list();
   for (const std::string& name : names)
     if (std::none_of(objects.begin(), objects.end(),
                      [&](const ObjectSummary& object) { return object.name == name; }))
       throw Error(ErrorCode::not_found,
                   "'" + store_->location() + "' holds no object '" + name + "'");
-  active_ = names;
-  recognizer_->set_models(select_objects(store_->load(), active_));
-  changed_ = true;
+  reload(names);
 }
 
 void ObjectRecognition::remove(const std::string& object, const std::string& view) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   if (view.empty())
     store_->remove_object(object);
   else
@@ -238,14 +253,15 @@ void ObjectRecognition::remove(const std::string& object, const std::string& vie
 }
 
 void ObjectRecognition::rename(const std::string& from, const std::string& to) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   store_->rename_object(from, to);
-  std::replace(active_.begin(), active_.end(), from, to);
-  follow_database();
+  std::vector<std::string> active = known()->database.active;
+  std::replace(active.begin(), active.end(), from, to);
+  reload(active);
 }
 
 std::string ObjectRecognition::save(const std::string& path) const {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   std::string target = path;
   if (target.empty()) {
     if (is_server_address(store_->location()))
@@ -262,7 +278,7 @@ std::string ObjectRecognition::save(const std::string& path) const {
 TransferResult ObjectRecognition::export_to(const std::string& path,
                                             const std::vector<std::string>& names,
                                             bool overwrite) const {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   return export_objects(*store_, path, names, overwrite);
 }
 
@@ -270,7 +286,7 @@ TransferResult ObjectRecognition::import_from(const std::string& path,
                                               const std::vector<std::string>& names,
                                               const std::string& on_conflict) {
   const OnConflict conflict = parse_conflict(on_conflict);
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(changing_);
   const TransferResult result = import_objects(path, *store_, names, conflict);
   follow_database();
   return result;
@@ -290,7 +306,7 @@ TaughtPicture ObjectRecognition::teach(const std::string& object, const ViewSour
   made.mask = taught.view.mask;
   std::vector<std::shared_ptr<const View>> others;
   {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(changing_);
     const auto objects = store_->list();
     if (std::any_of(objects.begin(), objects.end(),
                     [&](const ObjectSummary& known) { return known.name == object; }))

@@ -14,7 +14,7 @@
 #include "logic/teach_session.hpp"
 #include "logic/tracks.hpp"
 #include "posevote/recognize/recognizer.hpp"
-#include "posevote/store/object_store.hpp"
+#include "posevote/store/follower.hpp"
 #include "posevote/store/transfer.hpp"
 
 namespace posevote::logic {
@@ -34,6 +34,7 @@ struct Findings {
   std::string problem;               ///< why there are no poses although there should be; "": none
 };
 
+/// What is known of the database; as of the last time that it could be reached.
 struct DatabaseState {
   std::string location;
   std::int64_t version = 0;
@@ -41,14 +42,17 @@ struct DatabaseState {
   bool read_only = false;
   std::vector<ObjectSummary> objects;
   std::vector<std::string> active;  ///< empty: all
+  std::string problem;              ///< why it cannot be followed at present; "": it is
   [[nodiscard]] bool is_active(const std::string& object) const;
   /// Its place in `objects`, from 0; -1: it is not there.
   [[nodiscard]] int place_of(const std::string& object) const;
 };
 
 /// Safe to call from many threads: teaching and services may change the database while another
-/// thread recognises. Changes that other programs make to the database are seen with the next
-/// picture. All members throw Error as the store does.
+/// thread recognises. Changes that other programs make to the database are followed in a thread of
+/// its own; while the database cannot be reached, recognition goes on with what is known. What is
+/// changed here is seen with the next picture. Members that change the database, or read more of
+/// it than its state, throw Error as the store does.
 class ObjectRecognition {
  public:
   /// Opens or makes the database. `settings`: options that differ from the defaults; those of the
@@ -70,10 +74,9 @@ class ObjectRecognition {
   /// Error{invalid_argument} for options that are read at the start.
   void set(const Settings& settings);
 
-  /// Takes over what other programs changed. True when the database, or what is looked for, is not
-  /// what it was at the last call.
-  bool refresh();
   [[nodiscard]] DatabaseState database() const;
+  /// Whether the database, or what is looked for, is not what it was at the last call.
+  [[nodiscard]] bool changed();
 
   /// Throws Error{not_found} for names that are not there. Empty: all.
   void set_active(const std::vector<std::string>& names);
@@ -97,31 +100,33 @@ class ObjectRecognition {
                       const std::string& source_name);
 
  private:
-  /// What one picture is recognised with.
-  struct Snapshot {
-    std::shared_ptr<const Recognizer> recognizer;
+  /// What pictures are recognised with.
+  struct Known {
+    std::shared_ptr<Recognizer> recognizer;
     NodeOptions options;
     std::map<std::string, double> heights;
+    DatabaseState database;
   };
 
-  void follow_database();  ///< with mutex_ held
-  void make_recognizer(const NodeOptions& options);
-  [[nodiscard]] Snapshot snapshot();
-  void add_poses(const Snapshot& with, const std::optional<Camera>& camera, Findings& findings);
+  [[nodiscard]] DatabaseState read_state(const std::vector<std::string>& active) const;
+  void reload(const std::vector<std::string>& active);  ///< with changing_ held, as the next one
+  void follow_database();
+  [[nodiscard]] std::shared_ptr<const Known> known() const;
+  void set_known(Known known, bool changed);
+  void add_poses(const Known& with, const std::optional<Camera>& camera, Findings& findings);
 
-  mutable std::mutex mutex_;
-  std::unique_ptr<ObjectStore> store_;
-  std::int64_t version_ = -1;
-  NodeOptions options_;
-  std::map<std::string, double> heights_;
-  std::vector<std::string> active_;
-  std::shared_ptr<Recognizer> recognizer_;
-  bool changed_ = true;  ///< since the last `refresh`
+  std::shared_ptr<ObjectStore> store_;
+  mutable std::mutex changing_;  ///< one change after the other, however long the database takes
+  mutable std::mutex mutex_;     ///< of the next two; for moments only
+  std::shared_ptr<const Known> known_;
+  bool changed_ = false;
 
   ReliefCache reliefs_;
 
   std::mutex tracker_mutex_;
   Tracker tracker_;
+
+  std::optional<Follower> follower_;  // the last member: it uses the others
 };
 
 /// Where the object is by the method of `source`, for the store: "mask", "background", "roi",

@@ -80,14 +80,15 @@ TEST_F(ObjectRecognitionTest, TeachesAndRecognisesTheNextPicture) {
 
 TEST_F(ObjectRecognitionTest, FollowsWhatAnotherProgramTeaches) {
   ObjectRecognition node(settings_);
-  EXPECT_TRUE(node.refresh());
-  EXPECT_FALSE(node.refresh());
+  EXPECT_TRUE(node.changed());
+  EXPECT_FALSE(node.changed());
   {
     ObjectRecognition other(settings_);
     (void)other.teach("poster", whole(poster_), "test");
   }
+  while (!node.changed()) std::this_thread::yield();
   EXPECT_EQ(node.recognize(scene_, {}).objects.size(), 1u);
-  EXPECT_TRUE(node.refresh());
+  EXPECT_THAT(names(node.database()), ElementsAre("poster"));
 }
 
 TEST_F(ObjectRecognitionTest, TakesOverTheFeaturesThatAnotherProgramUsed) {
@@ -99,6 +100,7 @@ TEST_F(ObjectRecognitionTest, TakesOverTheFeaturesThatAnotherProgramUsed) {
     ObjectRecognition other(sift);
     (void)other.teach("poster", whole(poster_), "test");
   }
+  while (node.database().features.empty()) std::this_thread::yield();
   EXPECT_EQ(node.recognize(scene_, {}).objects.size(), 1u);
   EXPECT_EQ(node.options().recognize.feature.kind, "sift");
   EXPECT_EQ(node.database().features, "sift");

@@ -27,7 +27,9 @@ void report_health(Status& status, const HealthReport& report, double slow_ms, b
 
 template <class Status>
 void report_database(Status& status, const DatabaseState& database) {
-  if (database.objects.empty())
+  if (!database.problem.empty())
+    status.summary(Status::WARN, database.problem);
+  else if (database.objects.empty())
     status.summary(Status::WARN, "no objects are taught yet");
   else
     status.summary(Status::OK, std::to_string(database.objects.size()) + " objects");

@@ -59,6 +59,10 @@ TEST(ReportDatabase, AnEmptyOneIsAWarning) {
   EXPECT_EQ(status.level, Status::OK);
   EXPECT_EQ(status.message, "2 objects");
   EXPECT_EQ(status.values["location"], "objects.db");
+  database.problem = "cannot be reached";
+  report_database(status, database);
+  EXPECT_EQ(status.level, Status::WARN);
+  EXPECT_EQ(status.message, "cannot be reached");
 }
 
 }  // namespace

@@ -29,11 +29,7 @@ Node::Node(ros::NodeHandle nh, ros::NodeHandle private_nh)
   diagnostics_.add("recognition", this, &Node::report_recognition);
   diagnostics_.add("database", this, &Node::report_database);
   timer_ = nh.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
-    try {
-      publish_database();
-    } catch (const Error& error) {
-      report_problem(error.what());
-    }
+    publish_database();
     diagnostics_.update();
   });
   publish_database();
@@ -123,7 +119,7 @@ void Node::publish(const Frame& frame, const cv::Mat& picture, const logic::Find
 }
 
 void Node::publish_database() {
-  if (!recognition_.refresh()) return;
+  if (!recognition_.changed()) return;
   posevote_msgs::DatabaseInfo info;
   info.header.stamp = ros::Time::now();
   logic::fill_database(info, recognition_.database());
@@ -143,12 +139,7 @@ void Node::report_recognition(diagnostic_updater::DiagnosticStatusWrapper& statu
 }
 
 void Node::report_database(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using Status = diagnostic_msgs::DiagnosticStatus;
-  try {
-    logic::report_database(status, recognition_.database());
-  } catch (const Error& error) {
-    status.summary(Status::ERROR, error.what());
-  }
+  logic::report_database(status, recognition_.database());
 }
 
 }  // namespace posevote::ros1

@@ -39,7 +39,7 @@ Node::CallbackReturn Node::on_configure(const rclcpp_lifecycle::State&) {
   advertise();
   services_ = std::make_unique<Services>(*this);
   teach_action_ = std::make_unique<TeachAction>(*this);
-  timer_ = create_wall_timer(std::chrono::seconds(1), [this] { tick(); });
+  timer_ = create_wall_timer(std::chrono::seconds(1), [this] { publish_database(); });
   RCLCPP_INFO(get_logger(), "objects in '%s'; pictures from '%s'",
               recognition_->database().location.c_str(), camera_topic(*this).c_str());
   return CallbackReturn::SUCCESS;
@@ -61,7 +61,7 @@ void Node::advertise() {
 
 Node::CallbackReturn Node::on_activate(const rclcpp_lifecycle::State& state) {
   try {
-    (void)recognition_->refresh();
+    (void)recognition_->changed();
     posevote_msgs::msg::DatabaseInfo info;
     info.header.stamp = now();
     logic::fill_database(info, recognition_->database());
@@ -109,14 +109,6 @@ void Node::release() {
   annotated_.reset();
   database_.reset();
   recognition_.reset();
-}
-
-void Node::tick() {
-  try {
-    publish_database();
-  } catch (const Error& error) {
-    report_problem(error.what());
-  }
 }
 
 bool Node::is_listened_to() const {
@@ -176,7 +168,7 @@ void Node::publish(const Frame& frame, const cv::Mat& picture, const logic::Find
 }
 
 void Node::publish_database() {
-  if (!database_->is_activated() || !recognition_->refresh()) return;
+  if (!database_->is_activated() || !recognition_->changed()) return;
   posevote_msgs::msg::DatabaseInfo info;
   info.header.stamp = now();
   logic::fill_database(info, recognition_->database());
@@ -204,11 +196,7 @@ void Node::report_database(diagnostic_updater::DiagnosticStatusWrapper& status) 
     status.summary(Status::OK, "not configured");
     return;
   }
-  try {
-    logic::report_database(status, recognition_->database());
-  } catch (const Error& error) {
-    status.summary(Status::ERROR, error.what());
-  }
+  logic::report_database(status, recognition_->database());
 }
 
 }  // namespace posevote::ros2

@@ -56,7 +56,6 @@ class Node : public rclcpp_lifecycle::LifecycleNode {
 
   void advertise();
   void release();
-  void tick();
   [[nodiscard]] bool is_listened_to() const;
   void receive(const Frame& frame);
   void work(const Frame& frame, std::uint64_t dropped);

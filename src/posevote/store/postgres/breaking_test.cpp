@@ -28,8 +28,7 @@ class BreakAnywhere : public ServerTest {
   }
 
   std::unique_ptr<ObjectStore> by_relay() const {
-    return open_postgres_store("postgresql://tester@127.0.0.1:" + std::to_string(relay_->port()) +
-                               "/" + database_ + "?sslmode=disable");
+    return open_postgres_store(relay_->address(database_));
   }
 
   /// What the database holds, as text.

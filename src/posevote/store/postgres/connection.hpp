@@ -22,16 +22,16 @@ struct Link {
                                            const PostgresOptions& options);
 
 /// Throws the posevote::Error that the exception in flight amounts to; `location` names the
-/// database.
-[[noreturn]] void rethrow(const std::string& location);
+/// database, and the passwords of `address` are not told.
+[[noreturn]] void rethrow(const std::string& location, const std::string& address);
 
 /// Runs `work`, turning libpqxx's exceptions into posevote::Error.
 template <class Work>
-auto guarded(const std::string& location, Work work) {
+auto guarded(const std::string& location, const std::string& address, Work work) {
   try {
     return work();
   } catch (const pqxx::pqxx_exception&) {
-    rethrow(location);
+    rethrow(location, address);
   }
 }
 

@@ -30,6 +30,8 @@ TEST(PostgresAddress, TimeLimitsAreAddedUnlessTheyAreGiven) {
   const std::string own = complete_address("postgresql://h/d?connect_timeout=3", {});
   EXPECT_THAT(own, StartsWith("postgresql://h/d?connect_timeout=3&"));
   EXPECT_THAT(own, Not(HasSubstr("connect_timeout=10")));
+  EXPECT_THAT(complete_address("postgresql://a:b?c@h/d", {}), HasSubstr("@h/d?connect_"));
+  EXPECT_THAT(complete_address("postgresql://h?host=/tmp", {}), HasSubstr("/tmp&connect_"));
 }
 
 TEST(PostgresAddress, AServerThatIsNotThereIsSaidWithoutThePassword) {
@@ -37,7 +39,11 @@ TEST(PostgresAddress, AServerThatIsNotThereIsSaidWithoutThePassword) {
        {"postgresql://robot:secret@127.0.0.1:1/db",
         "postgresql://robot@127.0.0.1:1/db?password=secret",
         "postgresql://robot:secret@/db?host=/nowhere", "postgresql://robot:secret@127.0.0.1:x/db",
-        "postgresql://robot:secret@127.0.0.1/db?nonsense=1"})
+        "postgresql://robot:secret@127.0.0.1/db?nonsense=1",
+        "postgresql://robot:secret%@127.0.0.1/db", "postgresql://robot:100%secret@127.0.0.1/db",
+        "postgresql://127.0.0.1/db?password=100%secret", "postgresql://robot:secret%00@h/db",
+        "postgresql://robot:p@secret@nowhere/db", "postgresql://robot:secret/p@127.0.0.1/db",
+        "postgresql://robot:secret?'\" @127.0.0.1:1/db"})
     EXPECT_THAT(error_of([&] { static_cast<void>(open_postgres_store(address)); }),
                 AllOf(StartsWith("io"), HasSubstr("***"), Not(HasSubstr("secret"))));
 }
@@ -55,6 +61,27 @@ TEST_F(PostgresConnection, APasswordIsNeverSaid) {
         static_cast<void>(open_postgres_store(server_.loopback(database_, user + ":wrong")));
       }),
       AllOf(StartsWith("io"), HasSubstr("password"), Not(HasSubstr("wrong"))));
+}
+
+TEST_F(PostgresConnection, APasswordMayHoldAnything) {
+  const std::pair<const char*, const char*> cases[]{{"se?cret", "se?cret"},
+                                                    {"se''cret", "se'cret"},
+                                                    {"se\"cret", "se\"cret"},
+                                                    {"se cret", "se cret"},
+                                                    {"se%cret", "se%25cret"}};
+  int number = 0;
+  for (const auto& [in_sql, written] : cases) {
+    const std::string user = "any_" + std::to_string(getpid()) + "_" + std::to_string(number++);
+    server_.run("postgres",
+                "CREATE ROLE " + user + " LOGIN SUPERUSER PASSWORD '" + std::string(in_sql) + "'");
+    const auto store = open_postgres_store(server_.loopback(database_, user + ":" + written));
+    EXPECT_THAT(store->location(), AllOf(HasSubstr(user + ":***@"), Not(HasSubstr("cret"))));
+    const auto error = error_of([&] {
+      static_cast<void>(
+          open_postgres_store(server_.loopback("none", user + ":" + std::string(written))));
+    });
+    EXPECT_THAT(error, AllOf(StartsWith("io"), HasSubstr("none"), Not(HasSubstr("cret"))));
+  }
 }
 
 TEST_F(PostgresConnection, ReadingGoesOnAfterABreak) {

@@ -1,6 +1,7 @@
 // Declaration of the PostgreSQL store; reading.cpp and writing.cpp define it.
 #pragma once
 
+#include <map>
 #include <mutex>
 
 #include "posevote/store/blob.hpp"
@@ -55,7 +56,7 @@ class PostgresStore : public ObjectStore {
   template <class Work>
   std::invoke_result_t<Work> reading(Work work) const {
     const std::lock_guard lock(mutex_);
-    return guarded(location_, [&] {
+    return guarded(location_, address_, [&] {
       if (work_) return work();
       const auto once = [&] {
         Snapshot snapshot(link().connection);
@@ -89,6 +90,7 @@ class PostgresStore : public ObjectStore {
   std::shared_ptr<const View> load_view(std::int64_t row, const LoadOptions& options) const;
   std::vector<std::shared_ptr<const View>> load_views(std::int64_t object,
                                                       const LoadOptions& options) const;
+  std::vector<Features> load_impostors() const;
   std::string insert_view(std::int64_t object, const TaughtView& view, const std::string& identity,
                           const std::string& signature);
   void rebuild_view(std::int64_t row, const FeatureRecord& features, const FeatureMaker& maker);
@@ -100,6 +102,7 @@ class PostgresStore : public ObjectStore {
   mutable std::unique_ptr<Link> link_;
   mutable pqxx::transaction_base* work_ = nullptr;
   mutable ViewCache cache_;
+  mutable std::map<std::string, Features> impostors_;  // those of the last snapshot
   mutable std::mutex listening_;
   mutable std::unique_ptr<Link> listener_;
 };

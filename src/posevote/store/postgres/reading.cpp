@@ -27,7 +27,7 @@ PostgresStore::PostgresStore(const std::string& address, const PostgresOptions& 
     : address_(complete_address(address, options)),
       location_(without_passwords(address)),
       options_(options) {
-  guarded(location_, [&] { prepare(options.access); });
+  guarded(location_, address_, [&] { prepare(options.access); });
 }
 
 Link& PostgresStore::link() const {
@@ -94,7 +94,7 @@ std::int64_t PostgresStore::version() const {
 bool PostgresStore::wait_for_change(std::int64_t known, std::chrono::milliseconds timeout) const {
   using std::chrono::microseconds;
   const std::lock_guard lock(listening_);
-  return guarded(location_, [&] {
+  return guarded(location_, address_, [&] {
     try {
       if (!listener_) listener_ = std::make_unique<Listener>(address_);
       pqxx::connection& connection = listener_->connection;
@@ -224,6 +224,28 @@ std::vector<std::shared_ptr<const View>> PostgresStore::load_views(
   return views;
 }
 
+std::vector<Features> PostgresStore::load_impostors() const {
+  std::vector<Features> all;
+  std::map<std::string, Features> known;
+  // A row that was written anew lies elsewhere, or was written by another transaction.
+  for (const pqxx::row row :
+       work_->exec("SELECT id, ctid, xmin FROM posevote.impostor ORDER BY id")) {
+    const std::string key =
+        std::string(row[0].c_str()) + '/' + row[1].c_str() + '/' + row[2].c_str();
+    auto kept = impostors_.extract(key);
+    const auto place = kept ? known.insert(std::move(kept)).position
+                            : known
+                                  .emplace(key, features_of(work_->exec_params1(
+                                                    "SELECT keypoints, descriptors, dimension FROM "
+                                                    "posevote.impostor WHERE id = $1",
+                                                    row[0].as<std::int64_t>())))
+                                  .first;
+    all.push_back(place->second);
+  }
+  impostors_.swap(known);
+  return all;
+}
+
 ObjectModel PostgresStore::load_object(const std::string& name, const LoadOptions& options) const {
   return reading([&] { return ObjectModel{name, load_views(object_id(name), options)}; });
 }
@@ -236,12 +258,8 @@ std::shared_ptr<const ModelSet> PostgresStore::load(const LoadOptions& options) 
     std::vector<ObjectModel> objects;
     for (const pqxx::row row : work_->exec("SELECT id, name FROM posevote.object ORDER BY name"))
       objects.push_back({row[1].c_str(), load_views(row[0].as<std::int64_t>(), options)});
-    std::vector<Features> impostors;
-    for (const pqxx::row row :
-         work_->exec("SELECT keypoints, descriptors, dimension FROM posevote.impostor ORDER BY id"))
-      impostors.push_back(features_of(row));
     return std::make_shared<const ModelSet>(features->signature, std::move(objects),
-                                            std::move(impostors));
+                                            load_impostors());
   });
 }
 

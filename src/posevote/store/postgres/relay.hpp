@@ -1,4 +1,4 @@
-// A line to the test server that can be cut at any moment.
+// A line to the test server that can be cut, or fall silent, at any moment.
 #pragma once
 
 #include <poll.h>
@@ -42,25 +42,41 @@ class Relay {
   Relay(const Relay&) = delete;
   Relay& operator=(const Relay&) = delete;
 
-  [[nodiscard]] int port() const { return port_; }
+  [[nodiscard]] std::string address(const std::string& database) const {
+    return "postgresql://tester@127.0.0.1:" + std::to_string(port_) + "/" + database +
+           "?sslmode=disable";
+  }
 
   /// Breaks all lines in the middle of the message after the next `messages`; new ones are served.
   void cut_after(int messages) { messages_left_ = messages; }
   /// Lets everything pass again; whether a cut came.
   bool end_cut() { return messages_left_.exchange(unlimited) == unlimited; }
 
+  /// While it is down all lines are broken, and new ones as soon as they are there.
+  void set_down(bool down) { down_ = down; }
+  /// While it is frozen nothing passes, and nobody is told.
+  void set_frozen(bool frozen) { frozen_ = frozen; }
+  /// Bytes that the server has sent so far.
+  [[nodiscard]] std::size_t received() const { return received_; }
+
  private:
   static constexpr int unlimited = -1;
+  static constexpr std::chrono::milliseconds tick{10};
   struct Line {
     std::array<int, 2> ends;
   };
 
   void run() {
     while (!stop_) {
+      while (down_ && !lines_.empty()) drop(lines_.begin());
+      if (frozen_) {
+        std::this_thread::sleep_for(tick);
+        continue;
+      }
       std::vector<pollfd> waiting{{listener_, POLLIN, 0}};
       for (const Line& line : lines_)
         for (const int end : line.ends) waiting.push_back({end, POLLIN, 0});
-      poll(waiting.data(), waiting.size(), -1);
+      poll(waiting.data(), waiting.size(), static_cast<int>(tick.count()));
       auto ready = waiting.begin() + 1;
       bool cut = false;
       for (auto line = lines_.begin(); line != lines_.end() && !cut;) {
@@ -84,6 +100,7 @@ class Relay {
     }
     cut = left == 0 && messages_left_.compare_exchange_strong(left, unlimited);
     const ssize_t passed = cut ? count / 2 : count;
+    if (from == 1) received_ += static_cast<std::size_t>(passed);
     return send(line.ends[1 - from], buffer_.data(), passed, MSG_NOSIGNAL) == passed;
   }
 
@@ -105,7 +122,8 @@ class Relay {
   std::string socket_path_;
   int listener_, port_ = 0;
   std::atomic<int> messages_left_ = unlimited;
-  std::atomic<bool> stop_ = false;
+  std::atomic<bool> stop_ = false, down_ = false, frozen_ = false;
+  std::atomic<std::size_t> received_ = 0;
   std::list<Line> lines_;
   std::vector<char> buffer_ = std::vector<char>(1 << 16);
   std::thread thread_;  // the last member: it uses the others

@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 
 #include "posevote/store/postgres/postgres_store.hpp"
+#include "posevote/store/postgres/relay.hpp"
 #include "posevote/store/postgres/test_server.hpp"
+#include "posevote/store/sync.hpp"
 
 namespace posevote::postgres {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 const FeatureRecord surf{"surf64 1", "kind=surf\n"};
@@ -27,11 +30,39 @@ class PostgresSchema : public ServerTest {
     return present_schema(work);
   }
   /// Takes away what later steps have brought.
-  void go_back_to_the_first() const {
-    server_.run(database_,
-                "ALTER TABLE posevote.view DROP COLUMN patch;"
-                "DROP TABLE posevote.impostor, posevote.derived;"
-                "UPDATE posevote.meta SET value = 1 WHERE key = 'schema'");
+  void go_back_to(int version) const {
+    const std::array undo{"DROP TABLE posevote.impostor", "DROP TABLE posevote.derived",
+                          "ALTER TABLE posevote.view DROP COLUMN patch"};
+    for (int step = newest_schema; step > version; --step)
+      server_.run(database_, undo.at(static_cast<std::size_t>(step) - 2));
+    server_.run(database_, "UPDATE posevote.meta SET value = " + std::to_string(version) +
+                               " WHERE key = 'schema'");
+  }
+  std::unique_ptr<ObjectStore> open() const {
+    return open_postgres_store(server_.address(database_));
+  }
+  /// Something of everything that a database can hold.
+  void fill() const {
+    const auto store = open();
+    for (int i = 0; i < 3; ++i) store->add_view("mug", made_view(i, 50), surf);
+    store->add_view("cup", made_view(3), surf);
+    store->add_impostor({"", made_features(3), {1}, {}}, surf);
+    store->set_note("a", "b");
+    store->set_derived("index", {store->version(), "bytes"});
+  }
+  /// All that `fill` made and schema `version` can hold, as text.
+  std::string contents(int version) const {
+    const auto store = open();
+    std::string text = "note " + store->note("a") + "\n";
+    if (version >= 3) text += "derived " + store->derived("index").bytes + "\n";
+    for (const KnownView& view : list_views(*store))
+      if (version >= 2 || !view.key.object.empty())
+        text += view.key.object + " " + view.key.identity + " " + view.hash + "\n";
+    const auto models = store->load();
+    for (const auto& entry : models->views())
+      text += std::to_string(entry.view->features.size()) + " features, patch " +
+              std::to_string(cv::sum(entry.view->patch.pixels)[0]) + "\n";
+    return text;
   }
   /// All columns, constraints, indexes and triggers of the schema.
   std::string tables() const {
@@ -65,15 +96,59 @@ TEST_F(PostgresSchema, EveryOlderOneBecomesTheNewest) {
   EXPECT_EQ(present(), newest_schema);
 }
 
-TEST_F(PostgresSchema, ObjectsOfTheFirstSchemaAreStillThere) {
-  open_postgres_store(server_.address(database_))->add_view("mug", made_view(1), surf);
-  go_back_to_the_first();
-  const auto store = open_postgres_store(server_.address(database_));
-  EXPECT_EQ(present(), newest_schema);
-  ASSERT_EQ(store->load()->views().size(), 1U);
-  EXPECT_FALSE(store->load()->views()[0].view->patch.empty());  // made, as none was kept then
-  store->add_impostor({"", made_features(3), {1}, {}}, surf);
-  EXPECT_EQ(store->impostors().size(), 1U);
+TEST_F(PostgresSchema, WhatOlderOnesHoldIsStillThere) {
+  for (int version = 1; version < newest_schema; ++version) {
+    fill();
+    const std::string before = contents(version);
+    go_back_to(version);
+    EXPECT_EQ(contents(version), before) << version;  // patches are made, as none were kept then
+    EXPECT_EQ(present(), newest_schema);
+    open()->add_impostor({"", made_features(4), {2}, {}}, surf);
+    EXPECT_EQ(open()->impostors().size(), version >= 2 ? 2U : 1U);
+    server_.run(database_, "DROP SCHEMA posevote CASCADE");
+  }
+}
+
+TEST_F(PostgresSchema, CutShortAMigrationIsDoneTheNextTime) {
+  Relay relay(server_.socket_path());
+  fill();
+  const std::string expected = contents(1);
+  for (int version = 0; version < newest_schema; ++version) {
+    bool cut = true;
+    int cuts = 0;
+    for (int messages = 0; cut; ++messages) {
+      if (version == 0)
+        server_.run(database_, "DROP SCHEMA IF EXISTS posevote CASCADE");
+      else
+        go_back_to(version);
+      relay.cut_after(messages);
+      const std::string error =
+          error_of([&] { static_cast<void>(open_postgres_store(relay.address(database_))); });
+      cut = relay.end_cut();
+      cuts += cut;
+      EXPECT_THAT(error, testing::AnyOf("", StartsWith("io: database")));
+      EXPECT_THAT(error, Not(HasSubstr("\n")));
+      EXPECT_THAT(present(), testing::AnyOf(version, newest_schema));
+      if (version > 0) EXPECT_EQ(contents(1), expected);
+      static_cast<void>(open());
+      EXPECT_EQ(present(), newest_schema);
+    }
+    EXPECT_GT(cuts, 3);
+    if (version == 0) fill();
+  }
+}
+
+TEST_F(PostgresSchema, AServerThatSaysNothingIsGivenUp) {
+  Relay relay(server_.socket_path());
+  relay.set_frozen(true);
+  PostgresOptions options;
+  options.connect_timeout_s = 2;
+  const std::string error =
+      error_of([&] { static_cast<void>(open_postgres_store(relay.address(database_), options)); });
+  EXPECT_THAT(error, testing::AllOf(StartsWith("io: database"), HasSubstr("cannot be reached"),
+                                    Not(HasSubstr("\n"))));
+  relay.set_frozen(false);
+  EXPECT_EQ(present(), 0);
 }
 
 TEST_F(PostgresSchema, WhatIsNotThereIsMadeOnlyWhenAskedTo) {
@@ -178,7 +253,7 @@ TEST_F(PostgresRoles, AnAdministratorDoesEverythingWithObjects) {
 }
 
 TEST_F(PostgresRoles, OnlyTheOwnerMigrates) {
-  go_back_to_the_first();
+  go_back_to(1);
   for (const char* role : {"reader", "teacher", "administrator"})
     EXPECT_THAT(error_of([&] { static_cast<void>(as(role)); }),
                 testing::AllOf(StartsWith("database_unusable"), HasSubstr("owner")));

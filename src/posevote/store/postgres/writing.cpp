@@ -21,7 +21,7 @@ std::string time_of(const Provenance& provenance) {
 
 void PostgresStore::transact(const std::function<void()>& work) {
   const std::lock_guard lock(mutex_);
-  guarded(location_, [&] {
+  guarded(location_, address_, [&] {
     if (work_) return work();
     if (options_.access == Access::read_only)
       fail(ErrorCode::io, "cannot be changed: it was opened for reading only");

@@ -44,8 +44,8 @@ Json Proposal::json() const {
   return json;
 }
 
-TeachSession::TeachSession(std::string id, std::string path, ObjectModel of)
-    : id_(std::move(id)), path_(std::move(path)), of_(std::move(of)) {
+TeachSession::TeachSession(std::string id, std::string path, double wait_s, ObjectModel of)
+    : id_(std::move(id)), path_(std::move(path)), of_(std::move(of)), looks_(1, wait_s) {
   if (std::filesystem::exists(path_)) draft_ = open_draft(path_);
 }
 
@@ -144,7 +144,7 @@ Proposal TeachSession::examine(SentPicture picture, const Wish& wish, const Teac
   return proposal;
 }
 
-Proposal TeachSession::look(SentPicture picture, const Wish& wish, const TeachOptions& options) {
+Proposal TeachSession::propose(SentPicture picture, const Wish& wish, const TeachOptions& options) {
   Known known_now;
   {
     const std::lock_guard lock(mutex_);
@@ -158,18 +158,12 @@ Proposal TeachSession::look(SentPicture picture, const Wish& wish, const TeachOp
   return *proposal_;
 }
 
-Proposal TeachSession::propose(SentPicture picture, const Wish& wish, const TeachOptions& options) {
-  const std::lock_guard one(looking_);
-  return look(std::move(picture), wish, options);
-}
-
 Proposal TeachSession::correct(const cv::Mat& mask, const TeachOptions& options) {
-  const std::lock_guard one(looking_);
   const Proposal corrected = proposal();
   Wish wish;
   wish.mask = mask;
   wish.yaw_deg = corrected.yaw_deg;
-  return look(corrected.picture, wish, options);
+  return propose(corrected.picture, wish, options);
 }
 
 Proposal TeachSession::proposal() const {

@@ -41,7 +41,8 @@ class TeachSession {
  public:
   /// `path`: the database's file, which may be there from an earlier run. `of`: what is known of
   /// the object, when it gets further views.
-  TeachSession(std::string id, std::string path, ObjectModel of = {});
+  /// `wait_s`: how long a look waits for the one before it.
+  TeachSession(std::string id, std::string path, double wait_s, ObjectModel of = {});
 
   [[nodiscard]] const std::string& id() const { return id_; }
   [[nodiscard]] Json json() const;
@@ -52,9 +53,13 @@ class TeachSession {
   void set_background(SentPicture background);
   [[nodiscard]] SentPicture background() const;  ///< throws Problem 404 without
 
-  /// Looks for the object, one look at a time; all else is answered meanwhile. What makes a picture
-  /// unusable becomes the proposal's advice; throws Error{invalid_argument} for a mask of another
-  /// size, a rectangle outside and the like.
+  /// One look at a time: the turn of who calls `propose` or `correct`. It is taken before a place
+  /// among the jobs, so that who waits for it keeps nobody else waiting.
+  [[nodiscard]] JobSlots& looks() { return looks_; }
+
+  /// Looks for the object; all else is answered meanwhile. What makes a picture unusable becomes
+  /// the proposal's advice; throws Error{invalid_argument} for a mask of another size, a rectangle
+  /// outside and the like.
   Proposal propose(SentPicture picture, const Wish& wish, const TeachOptions& options);
   /// The same picture again with this mask. Throws Problem 404 without a proposal.
   Proposal correct(const cv::Mat& mask, const TeachOptions& options);
@@ -86,8 +91,6 @@ class TeachSession {
   [[nodiscard]] Known known() const;
   static Proposal examine(SentPicture picture, const Wish& wish, const TeachOptions& options,
                           const Known& known);
-  /// `looking_` is held, `mutex_` is not.
-  Proposal look(SentPicture picture, const Wish& wish, const TeachOptions& options);
   [[nodiscard]] std::vector<ViewSummary> views() const;
   /// To be called, locked, by whatever changes it.
   void touch();
@@ -95,7 +98,7 @@ class TeachSession {
   const std::string id_, path_;
   const ObjectModel of_;  ///< unnamed: a new object
   Clock::time_point begun_ = Clock::now(), touched_ = begun_;
-  std::mutex looking_;  ///< held while a picture is looked at; taken before `mutex_`
+  JobSlots looks_;
   mutable std::mutex mutex_;
   std::optional<SentPicture> background_;
   std::optional<Proposal> proposal_;

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kWait = 600;  // s
+
 class TeachSessionTest : public testing::Test {
  protected:
   TeachSessionTest() { fs::create_directory(folder_); }
@@ -50,7 +52,7 @@ class TeachSessionTest : public testing::Test {
 
   std::string folder_ =
       (fs::temp_directory_path() / ("posevote-session-" + std::to_string(getpid()))).string();
-  TeachSession session_{"id", folder_ + "/id.posevote"};
+  TeachSession session_{"id", folder_ + "/id.posevote", kWait};
 };
 
 TEST_F(TeachSessionTest, ItAnswersWhileItLooks) {
@@ -86,7 +88,7 @@ TEST_F(TeachSessionTest, WhatTheObjectHasAlreadyAddsNothing) {
   const Proposal first = session_.propose(picture(480), wish, TeachOptions());
   EXPECT_EQ(first.json()["adds_little"], false);
   EXPECT_EQ(session_.json()["object"], Json());
-  TeachSession more("more", folder_ + "/more.posevote",
+  TeachSession more("more", folder_ + "/more.posevote", kWait,
                     {"box", {std::make_shared<const View>(*first.view)}});
   const Json begun = more.json();
   EXPECT_EQ(begun["object"], "box");
@@ -110,7 +112,7 @@ TEST_F(TeachSessionTest, ACorrectedMaskReplacesTheProposalAndKeepsItsSide) {
   EXPECT_LT(corrected.view->features.size(), whole.view->features.size());
   session_.accept(std::nullopt, TeachOptions().feature, "1");
   EXPECT_EQ(session_.json()["views"].size(), 1U);
-  EXPECT_EQ(TeachSession("id", folder_ + "/id.posevote").json()["views"][0]["yaw"], 60)
+  EXPECT_EQ(TeachSession("id", folder_ + "/id.posevote", kWait).json()["views"][0]["yaw"], 60)
       << "it is on the disk";
 }
 

@@ -161,8 +161,9 @@ TEST_F(Life, MetricsCountWhatHappened) {
     EXPECT_NE(all.find(line), std::string::npos) << line << "\n" << all;
   for (const std::string name :
        {"posevote_stage_seconds_bucket{stage=\"detect\",le=\"+Inf\"}", "posevote_frames_total",
-        "posevote_frames_skipped_total", "posevote_database_bytes", "posevote_features_total",
-        "posevote_result_age_seconds_count", "process_resident_memory_bytes"})
+        "posevote_frames_skipped_total", "posevote_frames_dropped_total", "posevote_database_bytes",
+        "posevote_features_total", "posevote_result_age_seconds_count",
+        "process_resident_memory_bytes"})
     EXPECT_NE(all.find(name), std::string::npos) << name;
 }
 

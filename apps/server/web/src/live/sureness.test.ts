@@ -18,8 +18,8 @@ test("the calibrated probability is shown, never as certain", () => {
   expect(sureness(found(0.9996, 0.26))).toBe("> 99 %");
 });
 
-test("without one it is Eq. 11", () => {
-  expect(sureness(found(0, 0.26))).toBe("26 %");
+test("without one it is Eq. 11, and says so", () => {
+  expect(sureness(found(0, 0.26))).toBe("26 % (Eq. 11)");
 });
 
 test("the features behind it are counted", () => {

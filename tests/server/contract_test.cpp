@@ -277,6 +277,7 @@ void Contract::object_operations() {
   expect("DELETE /api/objects/{object}", 200, gone);
   expect("POST /api/undo/{undo}", 200, undo(gone));
   const auto again = client.Delete("/api/objects/a%2Fb");
+  expect("GET /api/undo", 200, "/api/undo");
   expect("PATCH /api/objects/{object}", 200, "/api/objects/muesli", R"({"object": "a/b"})", kJson);
   expect("POST /api/undo/{undo}", 409, undo(again));
   expect("POST /api/objects/{object}/merge", 400, one + "/merge", R"({"into": 5})", kJson);
@@ -337,6 +338,7 @@ void Contract::teach_operations() {
   expect("POST " + of + "/proposal", 200, one + "/proposal", scene_);
   expect("POST " + of + "/views", 201, one + "/views");
   expect("DELETE " + of + "/views/{view}", 200, one + "/views/2");
+  expect("POST " + of + "/views/{view}/restore", 200, one + "/views/2/restore");
   expect("POST " + of + "/proposal", 200, one + "/proposal", scene_);
 }
 

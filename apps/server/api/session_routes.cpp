@@ -129,6 +129,10 @@ void add_session_routes(Router& router, Studio& studio) {
     session->remove_view(request["view"]);
     return json_response(session->json());
   });
+  add("POST", "/views/{view}/restore", [](Request& request, const Session& session, Studio&) {
+    session->restore_view(request["view"]);
+    return json_response(session->json());
+  });
   add("GET", "/views/{view}/picture", [](Request& request, const Session& session, Studio& s) {
     return picture_response(request, session->view(request["view"]).picture, s.jobs, s.limits);
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -71,6 +72,8 @@ class TeachSession {
               const std::string& version);
   [[nodiscard]] TaughtView view(const std::string& view) const;  ///< throws 404
   void remove_view(const std::string& view);                     ///< throws 404
+  /// Puts a view that was removed back, under a new id. Throws 404 for what is not kept any more.
+  void restore_view(const std::string& view);
 
   /// Copies the views into `store`. Throws Error{already_exists} when there is such an object and
   /// `add_to_existing` is not set, Problem 409 when there are no views.
@@ -92,6 +95,7 @@ class TeachSession {
   static Proposal examine(SentPicture picture, const Wish& wish, const TeachOptions& options,
                           const Known& known);
   [[nodiscard]] std::vector<ViewSummary> views() const;
+  void measure_redundancies();
   /// To be called, locked, by whatever changes it.
   void touch();
 
@@ -104,6 +108,9 @@ class TeachSession {
   std::optional<Proposal> proposal_;
   bool discarded_ = false;
   std::unique_ptr<ObjectStore> draft_;  ///< null as long as there are no views
+  /// By view: the share of its features that the object's views and those taken before it know.
+  std::map<std::string, double> redundancies_;
+  std::map<std::string, TaughtView> removed_;  ///< those that may come back
 };
 
 }  // namespace posevote::server

@@ -98,6 +98,48 @@ TEST_F(TeachSessionTest, WhatTheObjectHasAlreadyAddsNothing) {
   EXPECT_EQ(more.propose(picture(480), wish, TeachOptions()).json()["adds_little"], true);
 }
 
+TEST_F(TeachSessionTest, AllSidesRoundItIsEnough) {
+  const SentPicture seen = picture(320);
+  Wish wish;
+  wish.whole = true;
+  for (int yaw = 0; yaw < 360; yaw += 30) {
+    EXPECT_EQ(session_.json()["enough"], false) << yaw;
+    wish.yaw_deg = yaw;
+    session_.propose(seen, wish, TeachOptions());
+    session_.accept(std::nullopt, TeachOptions().feature, "1");
+  }
+  EXPECT_EQ(session_.json()["enough"], true);
+  EXPECT_EQ(session_.json()["next_yaw"], Json());
+  session_.remove_view("5");
+  EXPECT_EQ(session_.json()["enough"], false);
+  session_.restore_view("5");
+  EXPECT_EQ(session_.json()["enough"], true);
+  EXPECT_THROW(session_.restore_view("5"), Problem) << "it is back already";
+}
+
+TEST_F(TeachSessionTest, AViewThatAddsLittleIsMarkedUntilTheOneThatItRepeatsIsGone) {
+  Wish wish;
+  wish.whole = true;
+  for (const int yaw : {0, 30}) {
+    wish.yaw_deg = yaw;
+    session_.propose(picture(480), wish, TeachOptions());
+    session_.accept(std::nullopt, TeachOptions().feature, "1");
+  }
+  const auto marks = [](const TeachSession& session) {
+    std::vector<bool> all;
+    const Json json = session.json();
+    for (const Json& view : json["views"]) all.push_back(view["adds_little"]);
+    return all;
+  };
+  EXPECT_EQ(marks(session_), (std::vector<bool>{false, true}));
+  EXPECT_EQ(marks(TeachSession("id", folder_ + "/id.posevote", kWait)), marks(session_))
+      << "after a restart, too";
+  session_.remove_view("1");
+  EXPECT_EQ(marks(session_), std::vector<bool>{false});
+  session_.restore_view("1");
+  EXPECT_EQ(marks(session_), (std::vector<bool>{false, true}));
+}
+
 TEST_F(TeachSessionTest, ACorrectedMaskReplacesTheProposalAndKeepsItsSide) {
   Wish wish;
   wish.whole = true;

@@ -23,5 +23,5 @@ test("without one it is Eq. 11, and says so", () => {
 });
 
 test("the features behind it are counted", () => {
-  expect(evidence_of(found(0.9, 0.26))).toBe("26 of 100 features there agree on it: 26 % (Eq. 11)");
+  expect(evidence_of(found(0.9, 0.26))).toBe("26 of 100 features agree: 26 % (Eq. 11)");
 });

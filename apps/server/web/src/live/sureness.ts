@@ -9,5 +9,5 @@ export function sureness({ probability, confidence }: Detection): string {
 
 /// What stands behind it, for whoever wants to know.
 export function evidence_of({ inliers, features_in_area, confidence }: Detection): string {
-  return `${inliers} of ${features_in_area} features there agree on it: ${percent(confidence)} (Eq. 11)`;
+  return `${inliers} of ${features_in_area} features agree: ${percent(confidence)} (Eq. 11)`;
 }

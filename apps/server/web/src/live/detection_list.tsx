@@ -52,7 +52,7 @@ export function DetectionList({ detections, unknown = [], frame, picture, on_cho
           >
             Wrong
           </button>
-          <span class="detection-also number small muted">{evidence_of(found)}</span>
+          <span class="detection-also small muted">{evidence_of(found)}</span>
           {found.alternatives?.length ? (
             <span class="detection-also small muted">or {found.alternatives.join(", ")}: cannot be told apart here</span>
           ) : null}

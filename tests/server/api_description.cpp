@@ -27,7 +27,8 @@ bool has_type(const std::string& type, const Json& value) {
 
 std::vector<int> Operation::statuses() const {
   std::vector<int> all;
-  for (const auto& response : node["responses"]) all.push_back(response.first.as<int>());
+  for (const auto& response : node["responses"])
+    if (response.first.as<std::string>() != "default") all.push_back(response.first.as<int>());
   return all;
 }
 
@@ -53,7 +54,8 @@ YAML::Node ApiDescription::resolve(YAML::Node node) const {
 
 std::string ApiDescription::check(const Operation& operation, int status, const std::string& type,
                                   const std::string& body) const {
-  const YAML::Node found = operation.node["responses"][std::to_string(status)];
+  const bool failed = status == 500 || status == 501;
+  const YAML::Node found = operation.node["responses"][failed ? "default" : std::to_string(status)];
   if (!found.IsDefined()) return "status " + std::to_string(status) + " is not described";
   const YAML::Node content = resolve(found)["content"];
   const std::string plain = type.substr(0, type.find(';'));

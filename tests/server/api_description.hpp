@@ -16,7 +16,7 @@ struct Operation {
   YAML::Node node;
 
   [[nodiscard]] std::string name() const { return method + " " + path; }
-  [[nodiscard]] std::vector<int> statuses() const;
+  [[nodiscard]] std::vector<int> statuses() const;  ///< but "default"
 };
 
 class ApiDescription {
@@ -25,7 +25,8 @@ class ApiDescription {
 
   [[nodiscard]] const std::vector<Operation>& operations() const { return operations_; }
 
-  /// What is wrong with this response, as it is described; "": nothing.
+  /// What is wrong with this response, as it is described; "": nothing. "default" describes 500 and
+  /// 501 only: all others are to be listed.
   [[nodiscard]] std::string check(const Operation& operation, int status, const std::string& type,
                                   const std::string& body) const;
 

@@ -74,6 +74,7 @@ class Contract : public ServerTest {
   void whoever_has_no_token();
   void other_sites();
   void large_bodies();
+  void compressed_bodies();
   void things_that_are_not_there();
   void server_operations();
   void live_operations();
@@ -83,6 +84,8 @@ class Contract : public ServerTest {
   void impostor_operations();
   void too_much();
   void without_a_camera();
+  void pictures_of_larger_limits();
+  void features_of_another_kind();
 
   httplib::MultipartFormDataItems with_mask(const std::string& picture, const std::string& mask) {
     return {{"picture", content(picture), "p.jpg", "image/jpeg"},
@@ -135,6 +138,18 @@ void Contract::large_bodies() {
     auto client = this->client();
     expect(one.name(), 413, send(client, one.method, path_of(one), {}, large, kJpeg));
   }
+}
+
+void Contract::compressed_bodies() {
+  int sent = 0;
+  for (const Operation& one : api_.operations()) {
+    if (!one.node["requestBody"].IsDefined()) continue;
+    auto client = this->client();
+    expect(one.name(), 400,
+           send(client, one.method, path_of(one), {{"Content-Encoding", "gzip"}}, cover_, kJpeg));
+    ++sent;
+  }
+  EXPECT_GT(sent, 10);
 }
 
 void Contract::things_that_are_not_there() {
@@ -262,6 +277,7 @@ void Contract::object_operations() {
   expect("DELETE /api/objects/{object}", 200, gone);
   expect("POST /api/undo/{undo}", 200, undo(gone));
   const auto again = client.Delete("/api/objects/a%2Fb");
+  expect("GET /api/undo", 200, "/api/undo");
   expect("PATCH /api/objects/{object}", 200, "/api/objects/muesli", R"({"object": "a/b"})", kJson);
   expect("POST /api/undo/{undo}", 409, undo(again));
   expect("POST /api/objects/{object}/merge", 400, one + "/merge", R"({"into": 5})", kJson);
@@ -296,6 +312,7 @@ void Contract::teach_operations() {
   expect("PUT " + of + "/background", 200, one + "/background",
          content(demo("train/muesli/background.jpg")));
   expect("GET " + of + "/background", 200, one + "/background");
+  expect("GET " + of + "/background", 400, one + "/background?width=x");
   expect("POST " + of + "/proposal", 400, one + "/proposal?yaw=much", scene_);
   expect("POST " + of + "/proposal", 422, one + "/proposal", "no picture");
   expect("POST " + of + "/proposal", 200, one + "/proposal",
@@ -321,6 +338,7 @@ void Contract::teach_operations() {
   expect("POST " + of + "/proposal", 200, one + "/proposal", scene_);
   expect("POST " + of + "/views", 201, one + "/views");
   expect("DELETE " + of + "/views/{view}", 200, one + "/views/2");
+  expect("POST " + of + "/views/{view}/restore", 200, one + "/views/2/restore");
   expect("POST " + of + "/proposal", 200, one + "/proposal", scene_);
 }
 
@@ -338,6 +356,8 @@ void Contract::impostor_operations() {
 void Contract::too_much() {
   const std::string one = "/api/teach-sessions/" + ids_["session"];
   post(one + "/proposal", scene_);  // the one in hand went with the server before
+  client().Put(one + "/background", scene_, kJpeg);
+  const std::string file = client().Get("/api/export")->body;
   std::atomic<bool> stop = false;
   std::vector<std::thread> others;
   for (int i = 0; i < 3; ++i)
@@ -354,7 +374,18 @@ void Contract::too_much() {
       {"PUT " + views + "/mask", "/api/objects/poster/views/" + ids_["view"] + "/mask",
        "a good mask would make another view"},
       {"GET " + views + "/quality", "/api/objects/poster/views/" + ids_["view"] + "/quality", ""},
-      {"PUT /api/teach-sessions/{session}/proposal/mask", one + "/proposal/mask", cover_}};
+      {"PUT /api/teach-sessions/{session}/proposal/mask", one + "/proposal/mask", cover_},
+      {"POST /api/live/frame", "/api/live/frame", cover_},
+      {"GET /api/export", "/api/export", ""},
+      {"POST /api/import", "/api/import?existing=merge", file},
+      {"GET /api/impostors/{impostor}/picture", "/api/impostors/1/picture?width=99", ""},
+      {"GET " + views + "/picture",
+       "/api/objects/poster/views/" + ids_["view"] + "/picture?width=99", ""},
+      {"GET /api/teach-sessions/{session}/background", one + "/background?width=99", ""},
+      {"GET /api/teach-sessions/{session}/proposal/picture", one + "/proposal/picture?width=99",
+       ""},
+      {"GET /api/teach-sessions/{session}/views/{view}/picture", one + "/views/1/picture?width=99",
+       ""}};
   for (const auto& [name, path, body] : requests) {
     auto client = this->client();
     httplib::Result result(nullptr, httplib::Error::Unknown);
@@ -377,6 +408,46 @@ void Contract::without_a_camera() {
   expect("GET /api/frame.jpg", 503, "/api/frame.jpg");
 }
 
+/// Meanwhile views with other features have come into the empty database.
+void Contract::features_of_another_kind() {
+  const auto forget_all = [&] {
+    server_.reset();
+    for (const char* suffix : {"", "-wal", "-shm"}) fs::remove(folder_ + "/objects.db" + suffix);
+  };
+  forget_all();
+  start({"--set", "recognize.feature.kind=sift"});
+  teach_poster();
+  const std::string other = client().Get("/api/export")->body;
+  forget_all();
+  start();
+  const std::string name = "POST /api/objects/{object}/views",
+                    scene = content(demo("test/kitchen.jpg"));
+  httplib::Result taught(nullptr, httplib::Error::Unknown);
+  int delay_ms = 0;
+  EXPECT_TRUE(eventually([&] {  // the import must come while the picture is looked at
+    std::jthread teacher([&] { taught = client().Post("/api/objects/x/views", scene, kJpeg); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms += 20));
+    client().Post("/api/import", other, "application/octet-stream");
+    teacher.join();
+    for (const char* object : {"x", "poster"})
+      client().Delete(std::string("/api/objects/") + object);
+    return taught && taught->status == 409;
+  }));
+  expect(name, 409, taught);
+  EXPECT_EQ(Json::parse(taught->body)["error"]["code"], "feature_mismatch");
+}
+
+/// They are there, but are not made smaller.
+void Contract::pictures_of_larger_limits() {
+  start({"--set", "limits.megapixels=0.01"});
+  const std::string of = "/api/teach-sessions/";
+  expect("GET /api/impostors/{impostor}/picture", 422, "/api/impostors/1/picture?width=99");
+  expect("GET /api/objects/{object}/views/{view}/picture", 422,
+         "/api/objects/poster/views/" + ids_["view"] + "/picture?width=99");
+  expect("GET " + of + "{session}/views/{view}/picture", 422,
+         of + ids_["session"] + "/views/1/picture?width=99");
+}
+
 TEST_F(Contract, EveryPathAndEveryStatus) {
   whoever_has_no_token();
   const std::string camera = make_camera("camera", {demo("train/muesli/y000.jpg")});
@@ -393,6 +464,7 @@ TEST_F(Contract, EveryPathAndEveryStatus) {
   impostor_operations();
   expect("PUT /api/source", 200, "/api/source", R"({"source": "client"})", kJson);
   large_bodies();
+  compressed_bodies();
   things_that_are_not_there();
 
   const std::string sessions = "/api/teach-sessions";
@@ -404,21 +476,32 @@ TEST_F(Contract, EveryPathAndEveryStatus) {
     expect("GET /api/events", 429, "/api/events");
     return false;
   });
-  expect("DELETE /api/impostors/{impostor}", 204, "/api/impostors/1");
 
   start({"--set", "limits.jobs=1", "--set", "limits.wait_s=0.1"});  // "client", which sends nothing
-  too_much();
   without_a_camera();
+  too_much();
+  pictures_of_larger_limits();
+  expect("DELETE /api/impostors/{impostor}", 204, "/api/impostors/1");
   const std::string one = sessions + "/" + ids_["session"];
   expect("POST " + sessions + "/{session}/save", 200, one + "/save", R"({"object": "cereal"})",
          kJson);
   const std::string last = post(sessions)["session"];
   expect("DELETE " + sessions + "/{session}", 204, sessions + "/" + last);
 
+  features_of_another_kind();
+
   for (const Operation& one_of : api_.operations())
     for (const int status : one_of.statuses())
       EXPECT_TRUE(seen_.contains(one_of.name() + " " + std::to_string(status)))
           << one_of.name() << " " << status << " is described, but no test has seen it";
+}
+
+TEST_F(Contract, TroubleOfTheServersOwn) {
+  start();
+  teach_poster();
+  fs::remove_all(folder_ + "/objects.db.studio/undo");
+  expect("GET /api/export", 500, "/api/export");
+  expect("DELETE /api/objects/{object}", 500, "/api/objects/poster");
 }
 
 TEST_F(Contract, TheProgramServesThisVeryDescription) {

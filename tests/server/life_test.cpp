@@ -1,5 +1,7 @@
 // The server's end, expected and not; its camera's; its numbers.
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -148,6 +150,65 @@ TEST_F(Life, AStreamOverHttpIsASource) {
   EXPECT_TRUE(state_is("running")) << "it comes back by itself";
 }
 
+/// A camera in the network; killed when it goes.
+class RtspCamera {
+ public:
+  /// `port`: "0" is any free one.
+  RtspCamera(const std::string& picture, const std::string& port) {
+    int ends[2];
+    if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+    const std::string script = std::string(POSEVOTE_SOURCE_DIR) + "/tests/server/rtsp_server.py";
+    pid_ = fork();
+    if (pid_ == 0) {
+      dup2(ends[1], STDOUT_FILENO);
+      execl("/usr/bin/python3", "python3", script.c_str(), picture.c_str(), port.c_str(), nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    for (char c; read(ends[0], &c, 1) == 1 && c != '\n';) address_ += c;
+    close(ends[0]);
+  }
+  ~RtspCamera() {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  RtspCamera(const RtspCamera&) = delete;
+  RtspCamera& operator=(const RtspCamera&) = delete;
+
+  [[nodiscard]] const std::string& address() const { return address_; }  ///< "": it did not begin
+  [[nodiscard]] std::string port() const {
+    const std::size_t from = address_.rfind(':') + 1;
+    return address_.substr(from, address_.rfind('/') - from);
+  }
+
+ private:
+  int pid_ = -1;
+  std::string address_;
+};
+
+TEST_F(Life, ACameraInTheNetworkIsASource) {
+  if (std::system(
+          "/usr/bin/python3 -c \"import gi; gi.require_version('GstRtspServer', '1.0')\"") != 0)
+    GTEST_SKIP() << "gir1.2-gst-rtsp-server-1.0 and python3-gi are not installed";
+  const std::string picture = demo("test/breakfast.jpg");
+  auto camera = std::make_unique<RtspCamera>(picture, "0");
+  const std::string address = camera->address(), port = camera->port();
+  ASSERT_NE(address, "");
+  start({"--camera", address});
+  const auto state_is = [&](const std::string& state) {
+    return eventually([&] { return get("/api/live")["state"] == state; });
+  };
+  EXPECT_TRUE(state_is("running"));
+  camera.reset();
+  EXPECT_TRUE(state_is("lost"));
+  EXPECT_NE(get("/api/live")["message"].get<std::string>().find(address), std::string::npos);
+  camera = std::make_unique<RtspCamera>(picture, port);
+  EXPECT_TRUE(state_is("running")) << "it comes back by itself";
+  start({"--camera", address, "--set", "limits.megapixels=0.1"});
+  EXPECT_TRUE(state_is("lost"));
+  EXPECT_NE(get("/api/live")["message"].get<std::string>().find("too large"), std::string::npos);
+}
+
 TEST_F(Life, MetricsCountWhatHappened) {
   start({"--camera", make_camera("camera", {demo("test/breakfast.jpg")})});
   teach_poster();
@@ -161,8 +222,9 @@ TEST_F(Life, MetricsCountWhatHappened) {
     EXPECT_NE(all.find(line), std::string::npos) << line << "\n" << all;
   for (const std::string name :
        {"posevote_stage_seconds_bucket{stage=\"detect\",le=\"+Inf\"}", "posevote_frames_total",
-        "posevote_frames_skipped_total", "posevote_database_bytes", "posevote_features_total",
-        "posevote_result_age_seconds_count", "process_resident_memory_bytes"})
+        "posevote_frames_skipped_total", "posevote_frames_dropped_total", "posevote_database_bytes",
+        "posevote_features_total", "posevote_result_age_seconds_count",
+        "process_resident_memory_bytes"})
     EXPECT_NE(all.find(name), std::string::npos) << name;
 }
 

@@ -1,4 +1,6 @@
 // /api/objects and /api/undo: look at objects, rename, merge, delete and undo.
+#include <algorithm>
+
 #include "api/routes.hpp"
 #include "http/problem.hpp"
 #include "json.hpp"
@@ -37,6 +39,21 @@ Response undo_response(Studio& studio, const std::string& id) {
   return json_response({{"undo", id}, {"expires_s", studio.limits.undo_s}});
 }
 
+Json deletions_json(const Studio& studio) {
+  const auto text_or_null = [](const std::string& text) {
+    return text.empty() ? Json() : Json(text);
+  };
+  Json list = Json::array();
+  for (const Deletion& one : studio.trash.list())
+    list.push_back({{"undo", one.id},
+                    {"expires_s", std::max(0.0, studio.limits.undo_s - one.age_s)},
+                    {"age_s", one.age_s},
+                    {"object", one.object},
+                    {"view", text_or_null(one.view)},
+                    {"into", text_or_null(one.into)}});
+  return {{"deletions", std::move(list)}};
+}
+
 }  // namespace
 
 void add_object_routes(Router& router, Studio& studio) {
@@ -65,6 +82,7 @@ void add_object_routes(Router& router, Studio& studio) {
     return undo_response(
         s, s.trash.delete_view(s.catalogue.store(), request["object"], request["view"]));
   });
+  add("GET", "/api/undo", [](Request&, Studio& s) { return json_response(deletions_json(s)); });
   add("POST", "/api/undo/{undo}", [](Request& request, Studio& s) {
     const std::string name = s.trash.undo(s.catalogue.store(), request["undo"]);
     s.catalogue.refresh();

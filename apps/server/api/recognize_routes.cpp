@@ -131,7 +131,8 @@ void add_recognize_routes(Router& router, Studio& studio) {
     return no_content();
   });
   add("GET", "/api/impostors/{impostor}/picture", [](Request& request, Studio& s) {
-    return picture_response(request, s.catalogue.store().impostor(request["impostor"]).picture);
+    return picture_response(request, s.catalogue.store().impostor(request["impostor"]).picture,
+                            s.jobs, s.limits);
   });
 }
 

@@ -1,5 +1,5 @@
 // Access, settings, health and metrics.
-#include <filesystem>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -20,14 +20,13 @@ double resident_bytes() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-double database_bytes(const std::string& path) {
-  double bytes = 0;
-  for (const char* suffix : {"", "-wal"}) {
-    std::error_code error;
-    const auto size = std::filesystem::file_size(path + suffix, error);
-    if (!error) bytes += static_cast<double>(size);
+/// NaN: its server does not answer.
+double database_bytes(const ObjectStore& store) {
+  try {
+    return static_cast<double>(store.size_bytes());
+  } catch (const Error&) {
+    return std::nan("");
   }
-  return bytes;
 }
 
 Response metrics(const Studio& studio) {
@@ -53,7 +52,7 @@ Response metrics(const Studio& studio) {
   gauge("posevote_taught_features", "Features of all views.",
         static_cast<double>(models->feature_count()));
   gauge("posevote_database_bytes", "Size of the database.",
-        database_bytes(studio.catalogue.store().location()));
+        database_bytes(studio.catalogue.store()));
   gauge("process_resident_memory_bytes", "Memory in use.", resident_bytes());
   Response response;
   response.type = "text/plain; version=0.0.4; charset=utf-8";

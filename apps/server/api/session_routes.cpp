@@ -41,8 +41,9 @@ Response propose(const Request& request, const Session& session, Studio& studio)
   wish.whole = parse_flag(request, "whole");
   wish.yaw_deg = parse_number(request, "yaw", -360, 360).value_or(std::nan(""));
   Body body = request.read_body(most_bytes(studio.limits.body_mb));
+  const JobSlots::Slot turn(session->looks());
   const JobSlots::Slot slot(studio.jobs);
-  if (body.parts.contains("mask")) wish.mask = decode_sent(body.parts["mask"], studio.limits).image;
+  if (body.parts.contains("mask")) wish.mask = decode_within(body.parts["mask"], studio.limits);
   const Proposal proposal =
       session->propose(sent_or_newest(body, studio), wish, studio.catalogue.teach_options());
   return json_response(proposal.json());
@@ -51,8 +52,9 @@ Response propose(const Request& request, const Session& session, Studio& studio)
 Response correct(const Request& request, const Session& session, Studio& studio) {
   static_cast<void>(session->proposal());
   const Body body = request.read_body(most_bytes(studio.limits.body_mb));
+  const JobSlots::Slot turn(session->looks());
   const JobSlots::Slot slot(studio.jobs);
-  const cv::Mat mask = decode_sent(body.raw, studio.limits).image;
+  const cv::Mat mask = decode_within(body.raw, studio.limits);
   return json_response(session->correct(mask, studio.catalogue.teach_options()).json());
 }
 
@@ -105,16 +107,16 @@ void add_session_routes(Router& router, Studio& studio) {
     s.sessions.discard(session->id());
     return no_content();
   });
-  add("GET", "/background", [](Request& request, const Session& session, Studio&) {
-    return picture_response(request, session->background().encoded);
+  add("GET", "/background", [](Request& request, const Session& session, Studio& s) {
+    return picture_response(request, session->background().encoded, s.jobs, s.limits);
   });
   add("PUT", "/background", set_background);
   add("GET", "/proposal", [](Request&, const Session& session, Studio&) {
     return json_response(session->proposal().json());
   });
   add("POST", "/proposal", propose);
-  add("GET", "/proposal/picture", [](Request& request, const Session& session, Studio&) {
-    return picture_response(request, session->proposal().picture.encoded);
+  add("GET", "/proposal/picture", [](Request& request, const Session& session, Studio& s) {
+    return picture_response(request, session->proposal().picture.encoded, s.jobs, s.limits);
   });
   add("GET", "/proposal/mask",
       [](Request&, const Session& session, Studio&) { return mask_response(*session); });
@@ -127,8 +129,12 @@ void add_session_routes(Router& router, Studio& studio) {
     session->remove_view(request["view"]);
     return json_response(session->json());
   });
-  add("GET", "/views/{view}/picture", [](Request& request, const Session& session, Studio&) {
-    return picture_response(request, session->view(request["view"]).picture);
+  add("POST", "/views/{view}/restore", [](Request& request, const Session& session, Studio&) {
+    session->restore_view(request["view"]);
+    return json_response(session->json());
+  });
+  add("GET", "/views/{view}/picture", [](Request& request, const Session& session, Studio& s) {
+    return picture_response(request, session->view(request["view"]).picture, s.jobs, s.limits);
   });
   add("POST", "/save", save);
 }

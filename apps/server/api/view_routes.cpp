@@ -4,7 +4,6 @@
 #include "api/routes.hpp"
 #include "http/problem.hpp"
 #include "json.hpp"
-#include "posevote/image/read_image.hpp"
 #include "posevote/store/object_name.hpp"
 #include "studio/pictures.hpp"
 
@@ -29,10 +28,9 @@ Response teach(const Request& request, Studio& studio) {
   const JobSlots::Slot slot(studio.jobs);
   SentPicture picture = decode_sent(take_picture(body), studio.limits);
   source.picture = picture.image;
-  if (body.parts.contains("mask"))
-    source.mask = decode_sent(body.parts["mask"], studio.limits).image;
+  if (body.parts.contains("mask")) source.mask = decode_within(body.parts["mask"], studio.limits);
   if (body.parts.contains("background"))
-    source.background = decode_sent(body.parts["background"], studio.limits).image;
+    source.background = decode_within(body.parts["background"], studio.limits);
   const TeachOptions options = studio.catalogue.teach_options();
   TaughtView taught;
   taught.view = teach_view(source, options);
@@ -56,8 +54,8 @@ Response replace_mask(const Request& request, Studio& studio) {
   const JobSlots::Slot slot(studio.jobs);
   const TeachOptions options = studio.catalogue.teach_options();
   ViewSource source;
-  source.picture = decode_image(taught.picture, "picture");
-  source.mask = decode_sent(body.raw, studio.limits).image;
+  source.picture = decode_within(taught.picture, studio.limits);
+  source.mask = decode_within(body.raw, studio.limits);
   source.yaw_deg = taught.view.yaw_deg;
   taught.view = teach_view(source, options);
   taught.mask.clear();
@@ -111,7 +109,8 @@ void add_view_routes(Router& router, Studio& studio) {
   });
   add("GET", "/{view}/picture", [](Request& request, Studio& s) {
     return picture_response(request,
-                            s.catalogue.store().view(request["object"], request["view"]).picture);
+                            s.catalogue.store().view(request["object"], request["view"]).picture,
+                            s.jobs, s.limits);
   });
   add("GET", "/{view}/mask", [](Request& request, Studio& s) {
     return bytes_response("image/png",

@@ -73,7 +73,7 @@ class StreamSink : public Sink {
   Exchange& exchange_;
 };
 
-/// Bytes of all bodies in memory.
+/// Bytes of all bodies in memory: those that arrive, wait and are worked on.
 class BodyBudget {
  public:
   explicit BodyBudget(double megabytes) : left_(static_cast<std::int64_t>(megabytes * 1e6)) {}
@@ -245,12 +245,13 @@ class HttpServer::Listener : public httplib::Server {
     };
     request.read_body = [=, this, &from, &to](std::size_t max_bytes) {
       Body body;
-      BodyBudget::Share share(budget_);
+      const auto share = std::make_shared<BodyBudget::Share>(budget_);
+      body.share = share;
       Bytes* part = &body.raw;
       read(
           from, to, reader, max_bytes,
           [&](const char* data, std::size_t size) {
-            share.take(size);
+            share->take(size);
             part->insert(part->end(), data, data + size);
           },
           [&](const std::string& name) {

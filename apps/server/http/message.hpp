@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ using Bytes = std::vector<std::uint8_t>;
 struct Body {
   Bytes raw;
   std::map<std::string, Bytes> parts;
+  std::shared_ptr<const void> share;  ///< of limits.bodies_mb, free again when the body is gone
   [[nodiscard]] bool empty() const { return raw.empty() && parts.empty(); }
 };
 

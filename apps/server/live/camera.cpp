@@ -1,6 +1,8 @@
 #include "live/camera.hpp"
 
 #include <algorithm>
+#include <deque>
+#include <map>
 #include <thread>
 
 #include "http/problem.hpp"
@@ -11,9 +13,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr auto kRetry = milliseconds(500);
-constexpr double kSilence = 5;  // s without a frame: something is wrong, whatever the driver says
-constexpr double kStale = 30;   // s after which a frame shows nothing of the present
+constexpr auto kRetry = milliseconds(500), kLook = milliseconds(100);
+constexpr double kStale = 30;    // s after which a frame shows nothing of the present
+constexpr int kMostHanging = 2;  // attempts at one source
+
+double seconds_since(Clock::time_point when) {
+  return std::chrono::duration<double>(Clock::now() - when).count();
+}
 
 }  // namespace
 
@@ -21,6 +27,7 @@ constexpr double kStale = 30;   // s after which a frame shows nothing of the pr
 struct Camera::Shared {
   std::vector<SourceChoice> choices;
   SourceOptions source_options;
+  OpenSource open;
   Clock::time_point begin = Clock::now();
   PostedFrames posted;
 
@@ -28,7 +35,11 @@ struct Camera::Shared {
   std::condition_variable changed;
   Bell* bell = nullptr;  ///< null: nobody listens any more
   std::string source;
-  bool stop = false, ended = false;
+  bool stop = false;
+  std::int64_t attempt = 0;  ///< the newest; frames of others are not taken
+  bool in_hand = false;      ///< it has not failed yet
+  Clock::time_point alive = begin, retry = begin;
+  std::map<std::string, int> attempts;  ///< that have not ended, by source
   LiveOptions live_options;
   CameraState state = CameraState::waiting;
   std::string message = "waiting for the first frame";
@@ -45,9 +56,9 @@ struct Camera::Shared {
     if (bell) bell->ring();
   }
 
-  void publish(Frame frame, const std::string& of) {
+  void publish(Frame frame, const std::string& of, std::int64_t by) {
     const std::lock_guard lock(mutex);
-    if (stop || source != of) return;
+    if (stop || attempt != by) return;
     const auto now = Clock::now();
     number += frame.dropped;
     dropped += frame.dropped;
@@ -55,7 +66,7 @@ struct Camera::Shared {
     newest = std::make_shared<const LiveFrame>(std::move(frame.image), number++,
                                                std::chrono::duration<double>(now - begin).count(),
                                                of, live_options);
-    last_frame = now;
+    last_frame = alive = now;
     recent.push_back(now);
     while (now - recent.front() > std::chrono::seconds(3)) recent.pop_front();
     enter(CameraState::running, "");
@@ -66,52 +77,78 @@ struct Camera::Shared {
     return std::ranges::find(choices, name, &SourceChoice::name)->address;
   }
 
-  bool goes_on(const std::string& with) const {
+  bool wants(std::int64_t frames_of) const {
     const std::lock_guard lock(mutex);
-    return !stop && source == with;
+    return !stop && attempt == frames_of;
+  }
+
+  bool silent() const {
+    const double time_s = std::max(source_options.silence_s, 2 / source_options.fps);
+    return source != "client" && seconds_since(alive) > time_s;
+  }
+
+  bool all_ended() const {
+    return std::ranges::all_of(attempts, [](const auto& one) { return one.second == 0; });
   }
 };
 
-void Camera::capture(std::shared_ptr<Shared> shared) {
+void Camera::look_after(const std::shared_ptr<Shared>& shared) {
   Shared& s = *shared;
-  for (;;) {
-    std::string source;
-    {
-      const std::lock_guard lock(s.mutex);
-      if (s.stop) break;
-      source = s.source;
+  std::unique_lock lock(s.mutex);
+  while (!s.stop) {
+    const bool silent = s.silent();
+    const int hanging = s.attempts[s.source];
+    if (silent && hanging > 0)
+      s.enter(CameraState::lost, "no frame has come for some time; it is tried again by itself");
+    const bool due = !s.in_hand && Clock::now() >= s.retry;
+    if ((due && hanging == 0) || (silent && hanging < kMostHanging)) begin(shared);
+    s.changed.wait_for(lock, kLook);
+  }
+}
+
+void Camera::begin(const std::shared_ptr<Shared>& shared) {
+  Shared& s = *shared;
+  s.in_hand = true;
+  s.alive = Clock::now();
+  ++s.attempts[s.source];
+  std::thread(capture, shared, s.source, ++s.attempt).detach();
+}
+
+void Camera::capture(const std::shared_ptr<Shared>& shared, const std::string& source,
+                     std::int64_t attempt) {
+  Shared& s = *shared;
+  std::string reason;
+  try {
+    const auto frames = s.open(s.address_of(source), s.source_options, s.posted);
+    while (s.wants(attempt)) {
+      auto frame = frames->next();
+      if (!frame) throw Error(ErrorCode::io, "'" + source + "' has come to its end");
+      s.publish(std::move(*frame), source, attempt);
     }
-    std::string reason;
-    try {
-      const auto frames = open_source(s.address_of(source), s.source_options, s.posted);
-      while (s.goes_on(source)) {
-        auto frame = frames->next();
-        if (!frame) throw Error(ErrorCode::io, "'" + source + "' has come to its end");
-        s.publish(std::move(*frame), source);
-      }
-      continue;
-    } catch (const std::exception& error) {
-      reason = error.what();
-    }
-    std::unique_lock lock(s.mutex);
-    if (s.source != source) continue;
-    s.enter(source == "client" ? CameraState::waiting : CameraState::lost, reason);
-    s.changed.wait_for(lock, kRetry, [&] { return s.stop || s.source != source; });
+  } catch (const std::exception& error) {
+    reason = error.what();
   }
   const std::lock_guard lock(s.mutex);
-  s.ended = true;
+  --s.attempts[source];
+  if (s.attempt == attempt && !s.stop) {
+    s.in_hand = false;
+    s.retry = Clock::now() + kRetry;
+    s.enter(source == "client" ? CameraState::waiting : CameraState::lost, reason);
+  }
   s.changed.notify_all();
 }
 
-Camera::Camera(std::vector<SourceChoice> choices, const SourceOptions& options, Bell& bell)
+Camera::Camera(std::vector<SourceChoice> choices, const SourceOptions& options, Bell& bell,
+               OpenSource open)
     : shared_(std::make_shared<Shared>()) {
   if (std::ranges::find(choices, "client", &SourceChoice::name) == choices.end())
     choices.push_back(parse_source("client"));
   shared_->choices = std::move(choices);
   shared_->source_options = options;
+  shared_->open = std::move(open);
   shared_->source = shared_->choices.front().name;
   shared_->bell = &bell;
-  std::thread(capture, shared_).detach();
+  std::thread(look_after, shared_).detach();
 }
 
 Camera::~Camera() {
@@ -125,7 +162,7 @@ void Camera::stop() {
   shared_->changed.notify_all();
   shared_->posted.interrupt();
   // A driver may hang; the process ends nevertheless.
-  shared_->changed.wait_for(lock, std::chrono::seconds(3), [this] { return shared_->ended; });
+  shared_->changed.wait_for(lock, std::chrono::seconds(3), [this] { return shared_->all_ended(); });
 }
 
 std::vector<std::string> Camera::choices() const {
@@ -142,7 +179,9 @@ void Camera::select(const std::string& source) {
   shared_->source = source;
   shared_->newest = nullptr;
   shared_->recent.clear();
-  shared_->last_frame = Clock::now();
+  ++shared_->attempt;  // the one before is not wanted any more
+  shared_->in_hand = false;
+  shared_->alive = shared_->retry = shared_->last_frame = Clock::now();
   shared_->enter(CameraState::waiting, "waiting for the first frame");
   shared_->changed.notify_all();
   shared_->posted.interrupt();
@@ -150,18 +189,8 @@ void Camera::select(const std::string& source) {
 
 CameraStatus Camera::status() const {
   const std::lock_guard lock(shared_->mutex);
-  const auto now = Clock::now();
-  const auto seconds_since = [&](Clock::time_point when) {
-    return std::chrono::duration<double>(now - when).count();
-  };
   CameraStatus status{shared_->source, shared_->state, shared_->message,
                       seconds_since(shared_->since)};
-  const double silence = seconds_since(shared_->last_frame);
-  if (status.state != CameraState::lost && status.source != "client" && silence > kSilence) {
-    status.state = CameraState::lost;
-    status.message = "no frame has come for some time; it is tried again by itself";
-    status.since_s = silence;
-  }
   const auto& recent = shared_->recent;
   if (recent.size() > 1 && seconds_since(recent.back()) < 3)
     status.fps =
@@ -173,8 +202,7 @@ CameraStatus Camera::status() const {
 
 std::shared_ptr<const LiveFrame> Camera::newest() const {
   const std::lock_guard lock(shared_->mutex);
-  const double age = std::chrono::duration<double>(Clock::now() - shared_->last_frame).count();
-  return age > kStale ? nullptr : shared_->newest;
+  return seconds_since(shared_->last_frame) > kStale ? nullptr : shared_->newest;
 }
 
 void Camera::set_options(const LiveOptions& options) {
@@ -195,7 +223,7 @@ std::int64_t Camera::post(cv::Mat image) {
 }
 
 double Camera::now_s() const {
-  return std::chrono::duration<double>(Clock::now() - shared_->begin).count();
+  return seconds_since(shared_->begin);
 }
 
 }  // namespace posevote::server

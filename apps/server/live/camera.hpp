@@ -1,7 +1,7 @@
-// The live source: captures in a thread of its own, says when frames stay away, and tries again.
+// The live source: captures in threads of its own, says when frames stay away, and tries again.
 #pragma once
 
-#include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,12 +24,16 @@ struct CameraStatus {
   std::int64_t dropped = 0;  ///< left out by the source, because they came too fast
 };
 
-/// Safe for many threads.
+using OpenSource = std::function<decltype(open_source)>;
+
+/// Safe for many threads. A source that hangs, whether it is opened or read, is left to itself:
+/// another attempt, or another source, does not wait for it.
 class Camera {
  public:
   /// The first of `choices` is opened; "client" is always one of them. Rings `bell` for each frame
-  /// and each change of state.
-  Camera(std::vector<SourceChoice> choices, const SourceOptions& options, Bell& bell);
+  /// and each change of state. `open`: called from several threads.
+  Camera(std::vector<SourceChoice> choices, const SourceOptions& options, Bell& bell,
+         OpenSource open = open_source);
   /// Gives up a source that does not come to an end within some seconds.
   ~Camera();
 
@@ -53,7 +57,10 @@ class Camera {
 
  private:
   struct Shared;
-  static void capture(std::shared_ptr<Shared> shared);
+  static void look_after(const std::shared_ptr<Shared>& shared);
+  static void begin(const std::shared_ptr<Shared>& shared);
+  static void capture(const std::shared_ptr<Shared>& shared, const std::string& source,
+                      std::int64_t attempt);
   std::shared_ptr<Shared> shared_;
 };
 

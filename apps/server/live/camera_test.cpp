@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
+#include <thread>
 #ifdef POSEVOTE_WITH_VIDEO
 #include <opencv2/videoio.hpp>
 #endif
@@ -105,6 +108,16 @@ TEST_F(CameraTest, NamesOfSources) {
   PostedFrames posted;
   EXPECT_THROW(static_cast<void>(open_source(folder_ + "/none", {}, posted)), Error);
   EXPECT_THROW(static_cast<void>(open_source("camera:x", {}, posted)), Error);
+  fs::create_symlink("/dev/video971", folder_ + "/usb-camera");
+  for (const auto& [address, what] : std::map<std::string, std::string>{
+           {folder_ + "/usb-camera", "camera 971"}, {"/dev/v4l/by-id/none", "/dev/v4l/by-id/none"}})
+    try {
+      static_cast<void>(open_source(address, {}, posted));
+      FAIL() << address;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(what));
+      EXPECT_THAT(error.what(), testing::HasSubstr("camera"));
+    }
 }
 
 TEST_F(CameraTest, FramesAreNumberedAndStateIsTold) {
@@ -119,6 +132,144 @@ TEST_F(CameraTest, FramesAreNumberedAndStateIsTold) {
   fs::create_directory(folder_);
   show(1, 60);
   EXPECT_TRUE(until([&] { return camera.status().state == CameraState::running; }));
+}
+
+/// A camera's driver that does as it is told.
+class Driver {
+ public:
+  enum Mode { gives, fails, hangs };
+
+  void be(Mode mode) {
+    const std::lock_guard lock(mutex_);
+    mode_ = mode;
+    told_.notify_all();
+  }
+  /// Whoever hangs does so for good; the next ones get this.
+  void forsake_those_who_hang(Mode mode) {
+    const std::lock_guard lock(mutex_);
+    ++age_;
+    mode_ = mode;
+  }
+  void release() {
+    const std::lock_guard lock(mutex_);
+    released_ = true;
+    told_.notify_all();
+  }
+  int hanging() const {
+    const std::lock_guard lock(mutex_);
+    return hanging_;
+  }
+
+  void work(int age) {
+    std::unique_lock lock(mutex_);
+    ++hanging_;
+    told_.wait(lock, [&] { return released_ || (age == age_ && mode_ != hangs); });
+    --hanging_;
+    if (released_ || mode_ == fails) throw Error(ErrorCode::io, "the cable is loose");
+  }
+  int age() const {
+    const std::lock_guard lock(mutex_);
+    return age_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable told_;
+  Mode mode_ = gives;
+  int age_ = 0, hanging_ = 0;
+  bool released_ = false;
+};
+
+class DrivenSource : public FrameSource {
+ public:
+  explicit DrivenSource(std::shared_ptr<Driver> driver) : driver_(std::move(driver)) {
+    driver_->work(age_ = driver_->age());
+  }
+  std::optional<Frame> next() override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // its rate
+    driver_->work(age_);
+    Frame frame;
+    frame.image = cv::Mat(3, 4, CV_8UC3, cv::Scalar::all(9));
+    frame.number = number_ += 2;
+    frame.dropped = 1;
+    return frame;
+  }
+
+ private:
+  std::shared_ptr<Driver> driver_;
+  int age_;
+  std::int64_t number_ = -1;
+};
+
+class DrivenCamera : public CameraTest {
+ protected:
+  DrivenCamera() { show(1, 50); }
+  ~DrivenCamera() override {
+    driver_->release();
+    camera_.stop();
+  }
+  bool becomes(CameraState state) const {
+    return until([&] { return camera_.status().state == state; });
+  }
+
+  std::shared_ptr<Driver> driver_ = std::make_shared<Driver>();
+  Camera camera_{{{"camera", "camera"}, parse_source(folder_)},
+                 {100, 25, 0.1},
+                 bell_,
+                 [driver = driver_](const std::string& address, const SourceOptions& options,
+                                    PostedFrames& posted) -> std::unique_ptr<FrameSource> {
+                   if (address == "camera") return std::make_unique<DrivenSource>(driver);
+                   return open_source(address, options, posted);
+                 }};
+};
+
+TEST_F(DrivenCamera, DroppedFramesAreCounted) {
+  ASSERT_TRUE(until([&] { return camera_.status().frames >= 3; }));
+  const CameraStatus status = camera_.status();
+  EXPECT_EQ(status.dropped, status.frames);
+}
+
+TEST_F(DrivenCamera, ItFailsAndComesBack) {
+  ASSERT_TRUE(becomes(CameraState::running));
+  driver_->be(Driver::fails);
+  ASSERT_TRUE(becomes(CameraState::lost));
+  EXPECT_EQ(camera_.status().message, "the cable is loose");
+  driver_->be(Driver::gives);
+  EXPECT_TRUE(becomes(CameraState::running));
+  EXPECT_EQ(camera_.status().message, "");
+}
+
+TEST_F(DrivenCamera, ItHangsAndComesBack) {
+  ASSERT_TRUE(becomes(CameraState::running));
+  driver_->be(Driver::hangs);
+  ASSERT_TRUE(becomes(CameraState::lost));
+  EXPECT_THAT(camera_.status().message, testing::HasSubstr("no frame has come"));
+  driver_->be(Driver::gives);
+  EXPECT_TRUE(becomes(CameraState::running));
+}
+
+TEST_F(DrivenCamera, AnotherAttemptDoesNotWaitForTheOneThatHangs) {
+  ASSERT_TRUE(becomes(CameraState::running));
+  driver_->be(Driver::hangs);
+  ASSERT_TRUE(until([&] { return driver_->hanging() == 1; }));
+  driver_->forsake_those_who_hang(Driver::gives);
+  ASSERT_TRUE(becomes(CameraState::lost));
+  EXPECT_TRUE(becomes(CameraState::running));
+}
+
+TEST_F(DrivenCamera, AnotherSourceDoesNotWaitForTheOneThatHangs) {
+  driver_->be(Driver::hangs);
+  for (int round = 0; round < 3; ++round) {
+    ASSERT_TRUE(becomes(CameraState::lost));
+    ASSERT_TRUE(until([&] { return driver_->hanging() == 2; })) << "it is tried again";
+    camera_.select(folder_);
+    ASSERT_TRUE(becomes(CameraState::running));
+    EXPECT_EQ(driver_->hanging(), 2) << "but not without end";
+    camera_.select("camera");
+  }
+  driver_->be(Driver::gives);
+  EXPECT_TRUE(becomes(CameraState::running));
+  EXPECT_EQ(camera_.newest()->source(), "camera");
 }
 
 TEST_F(CameraTest, PostedFramesOnlyWhileTheyAreTheSource) {

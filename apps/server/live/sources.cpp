@@ -117,6 +117,14 @@ class ClientSource : public FrameSource {
   std::int64_t number_ = 0;
 };
 
+/// What a link stands for at the moment, even when that is not there.
+std::string link_target(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code no_link;
+  const fs::path target = fs::read_symlink(path, no_link);
+  return no_link ? path : (fs::path(path).parent_path() / target).lexically_normal().string();
+}
+
 }  // namespace
 
 void PostedFrames::post(cv::Mat image) {
@@ -150,13 +158,16 @@ std::unique_ptr<FrameSource> open_source(const std::string& address, const Sourc
   if (address == "client") return std::make_unique<ClientSource>(posted);
   for (const char* scheme : {"rtsp://", "rtsps://", "http://", "https://"})
     if (address.starts_with(scheme)) return open_stream(address, options.max_megapixels);
-  const std::string device = "/dev/video";
-  if (address.starts_with(device))
-    return open_camera(expand_input("camera:" + address.substr(device.size())).front().camera);
+  const std::string device = link_target(address), devices = "/dev/", cameras = "/dev/video";
+  if (device.starts_with(cameras))
+    return open_camera(expand_input("camera:" + device.substr(cameras.size())).front().camera,
+                       options.max_megapixels);
+  if (device.starts_with(devices))
+    throw Error(ErrorCode::not_found, "there is no camera '" + address + "' at the moment");
   if (std::filesystem::is_directory(address))
     return std::make_unique<FolderSource>(address, options);
   const Input input = expand_input(address).front();
-  if (input.kind == InputKind::camera) return open_camera(input.camera);
+  if (input.kind == InputKind::camera) return open_camera(input.camera, options.max_megapixels);
   if (!std::filesystem::exists(address))
     throw Error(ErrorCode::not_found, "there is no folder or video '" + address + "'");
   return std::make_unique<PacedVideo>(address, options.max_megapixels);

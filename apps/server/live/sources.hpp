@@ -29,6 +29,7 @@ class PostedFrames {
 struct SourceOptions {
   double fps = 5;  ///< of folders
   double max_megapixels = 25;
+  double silence_s = 5;  ///< without a frame: something is wrong, whatever the driver says
 };
 
 /// A source as people choose it, and as it is opened.
@@ -40,9 +41,10 @@ struct SourceChoice {
 /// What an argument of --camera stands for; "0" is "camera:0".
 [[nodiscard]] SourceChoice parse_source(const std::string& argument);
 
-/// Opens a source by address: "camera:N" or /dev/videoN; rtsp://, http:// or https:// address; a
-/// folder of pictures, shown one after the other again and again; a video file, in its own time,
-/// again and again; "client". Throws Error with the reason.
+/// Opens a source by address: "camera:N", /dev/videoN or a link to it such as /dev/v4l/by-id/...,
+/// which finds a camera under its new number again; rtsp://, http:// or https:// address; a folder
+/// of pictures, shown one after the other again and again; a video file, in its own time, again and
+/// again; "client". Throws Error with the reason.
 [[nodiscard]] std::unique_ptr<FrameSource> open_source(const std::string& address,
                                                        const SourceOptions& options,
                                                        PostedFrames& posted);

@@ -11,11 +11,15 @@
 
 namespace posevote::server {
 
-SentPicture decode_sent(Bytes encoded, const Limits& limits) {
+cv::Mat decode_within(const Bytes& encoded, const Limits& limits) {
   ReadOptions options;
   options.max_megapixels = limits.megapixels;
+  return decode_image(encoded, "picture", options);
+}
+
+SentPicture decode_sent(Bytes encoded, const Limits& limits) {
   SentPicture picture;
-  picture.image = decode_image(encoded, "picture", options);
+  picture.image = decode_within(encoded, limits);
   picture.encoded = std::move(encoded);
   picture.source = "upload";
   return picture;
@@ -41,10 +45,12 @@ Bytes encode_png(const cv::Mat& image) {
   return data;
 }
 
-Response picture_response(const Request& request, const Bytes& encoded) {
+Response picture_response(const Request& request, const Bytes& encoded, JobSlots& jobs,
+                          const Limits& limits) {
   Response response;
   if (const auto width = parse_number(request, "width", 16, 2048)) {
-    const cv::Mat image = to_bgr8(decode_image(encoded, "picture"));
+    const JobSlots::Slot slot(jobs);
+    const cv::Mat image = to_bgr8(decode_within(encoded, limits));
     response =
         bytes_response("image/jpeg", encode_jpeg(reduced_to(image, static_cast<int>(*width)), 85));
   } else {

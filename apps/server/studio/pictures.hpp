@@ -6,6 +6,7 @@
 
 #include "http/message.hpp"
 #include "live/frame.hpp"
+#include "studio/job_slots.hpp"
 #include "studio/settings.hpp"
 
 namespace posevote::server {
@@ -19,6 +20,7 @@ struct SentPicture {
 
 /// Throws Error{unreadable_image}: no picture, damaged, too many pixels. Nothing is decoded before
 /// its size is known to be within the limits.
+[[nodiscard]] cv::Mat decode_within(const Bytes& encoded, const Limits& limits);
 [[nodiscard]] SentPicture decode_sent(Bytes encoded, const Limits& limits);
 
 /// The body's part "picture", else the raw body.
@@ -29,8 +31,9 @@ struct SentPicture {
 
 [[nodiscard]] Bytes encode_png(const cv::Mat& image);
 
-/// The picture as it is, or as JPEG reduced to the query's `width`.
-[[nodiscard]] Response picture_response(const Request& request, const Bytes& encoded);
+/// The picture as it is, or as JPEG reduced to the query's `width`, which is a job.
+[[nodiscard]] Response picture_response(const Request& request, const Bytes& encoded,
+                                        JobSlots& jobs, const Limits& limits);
 
 /// The query's roi=x,y,width,height; throws Problem 400.
 [[nodiscard]] std::optional<cv::Rect> parse_rectangle(const Request& request, const char* name);

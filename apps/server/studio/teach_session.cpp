@@ -13,6 +13,7 @@ namespace posevote::server {
 namespace {
 
 constexpr const char* kDraft = "draft";  // the object's name as long as it has none
+constexpr std::size_t kMostRemoved = 16;
 
 std::unique_ptr<ObjectStore> open_draft(const std::string& path) {
   SqliteOptions options;
@@ -44,9 +45,11 @@ Json Proposal::json() const {
   return json;
 }
 
-TeachSession::TeachSession(std::string id, std::string path, ObjectModel of)
-    : id_(std::move(id)), path_(std::move(path)), of_(std::move(of)) {
-  if (std::filesystem::exists(path_)) draft_ = open_draft(path_);
+TeachSession::TeachSession(std::string id, std::string path, double wait_s, ObjectModel of)
+    : id_(std::move(id)), path_(std::move(path)), of_(std::move(of)), looks_(1, wait_s) {
+  if (!std::filesystem::exists(path_)) return;
+  draft_ = open_draft(path_);
+  measure_redundancies();
 }
 
 std::vector<ViewSummary> TeachSession::views() const {
@@ -57,7 +60,12 @@ Json TeachSession::json() const {
   const std::lock_guard lock(mutex_);
   Json list = Json::array();
   const auto all = views();
-  for (const ViewSummary& view : all) list.push_back(view_json(view));
+  for (const ViewSummary& view : all) {
+    const double redundancy = redundancies_.at(view.id);
+    list.push_back(view_json(view));
+    list.back()["redundancy"] = redundancy;
+    list.back()["adds_little"] = redundancy > QualityOptions().redundant_from;
+  }
   std::vector<double> known, yaws = yaws_of(all);
   for (const auto& view : of_.views)
     if (std::isfinite(view->yaw_deg)) known.push_back(view->yaw_deg);
@@ -144,7 +152,7 @@ Proposal TeachSession::examine(SentPicture picture, const Wish& wish, const Teac
   return proposal;
 }
 
-Proposal TeachSession::look(SentPicture picture, const Wish& wish, const TeachOptions& options) {
+Proposal TeachSession::propose(SentPicture picture, const Wish& wish, const TeachOptions& options) {
   Known known_now;
   {
     const std::lock_guard lock(mutex_);
@@ -158,18 +166,12 @@ Proposal TeachSession::look(SentPicture picture, const Wish& wish, const TeachOp
   return *proposal_;
 }
 
-Proposal TeachSession::propose(SentPicture picture, const Wish& wish, const TeachOptions& options) {
-  const std::lock_guard one(looking_);
-  return look(std::move(picture), wish, options);
-}
-
 Proposal TeachSession::correct(const cv::Mat& mask, const TeachOptions& options) {
-  const std::lock_guard one(looking_);
   const Proposal corrected = proposal();
   Wish wish;
   wish.mask = mask;
   wish.yaw_deg = corrected.yaw_deg;
-  return look(corrected.picture, wish, options);
+  return propose(corrected.picture, wish, options);
 }
 
 Proposal TeachSession::proposal() const {
@@ -191,8 +193,9 @@ void TeachSession::accept(std::optional<double> yaw_deg, const FeatureOptions& f
   taught.method = proposal_->method;
   taught.provenance = {proposal_->picture.source, "", version};
   if (!draft_) draft_ = open_draft(path_);
-  if (!draft_->add_view(kDraft, taught, record_features(features)).added)
-    throw conflict("this very picture is among the views already");
+  const AddResult result = draft_->add_view(kDraft, taught, record_features(features));
+  if (!result.added) throw conflict("this very picture is among the views already");
+  redundancies_[result.id] = proposal_->quality->redundancy;
   proposal_.reset();
 }
 
@@ -206,7 +209,31 @@ void TeachSession::remove_view(const std::string& view) {
   const std::lock_guard lock(mutex_);
   touch();
   if (!draft_) throw not_found("this session has no view '" + view + "'");
+  TaughtView removed = draft_->view(kDraft, view);
   draft_->remove_view(kDraft, view);
+  if (removed_.size() == kMostRemoved) removed_.erase(removed_.begin());
+  removed_.insert_or_assign(view, std::move(removed));
+  measure_redundancies();
+}
+
+void TeachSession::restore_view(const std::string& view) {
+  const std::lock_guard lock(mutex_);
+  touch();
+  const auto at = removed_.find(view);
+  if (at == removed_.end()) throw not_found("view '" + view + "' is not kept any more");
+  draft_->add_view(kDraft, at->second, draft_->features().value());
+  removed_.erase(at);
+  measure_redundancies();
+}
+
+void TeachSession::measure_redundancies() {
+  redundancies_.clear();
+  if (!has_object(*draft_, kDraft)) return;
+  std::vector<std::shared_ptr<const View>> before = of_.views;
+  for (const auto& view : draft_->load_object(kDraft).views) {
+    redundancies_[view->id] = measure_redundancy(*view, before);
+    before.push_back(view);
+  }
 }
 
 std::vector<AddResult> TeachSession::save(ObjectStore& store, const std::string& object,

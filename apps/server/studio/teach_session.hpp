@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -41,7 +42,8 @@ class TeachSession {
  public:
   /// `path`: the database's file, which may be there from an earlier run. `of`: what is known of
   /// the object, when it gets further views.
-  TeachSession(std::string id, std::string path, ObjectModel of = {});
+  /// `wait_s`: how long a look waits for the one before it.
+  TeachSession(std::string id, std::string path, double wait_s, ObjectModel of = {});
 
   [[nodiscard]] const std::string& id() const { return id_; }
   [[nodiscard]] Json json() const;
@@ -52,9 +54,13 @@ class TeachSession {
   void set_background(SentPicture background);
   [[nodiscard]] SentPicture background() const;  ///< throws Problem 404 without
 
-  /// Looks for the object, one look at a time; all else is answered meanwhile. What makes a picture
-  /// unusable becomes the proposal's advice; throws Error{invalid_argument} for a mask of another
-  /// size, a rectangle outside and the like.
+  /// One look at a time: the turn of who calls `propose` or `correct`. It is taken before a place
+  /// among the jobs, so that who waits for it keeps nobody else waiting.
+  [[nodiscard]] JobSlots& looks() { return looks_; }
+
+  /// Looks for the object; all else is answered meanwhile. What makes a picture unusable becomes
+  /// the proposal's advice; throws Error{invalid_argument} for a mask of another size, a rectangle
+  /// outside and the like.
   Proposal propose(SentPicture picture, const Wish& wish, const TeachOptions& options);
   /// The same picture again with this mask. Throws Problem 404 without a proposal.
   Proposal correct(const cv::Mat& mask, const TeachOptions& options);
@@ -66,6 +72,8 @@ class TeachSession {
               const std::string& version);
   [[nodiscard]] TaughtView view(const std::string& view) const;  ///< throws 404
   void remove_view(const std::string& view);                     ///< throws 404
+  /// Puts a view that was removed back, under a new id. Throws 404 for what is not kept any more.
+  void restore_view(const std::string& view);
 
   /// Copies the views into `store`. Throws Error{already_exists} when there is such an object and
   /// `add_to_existing` is not set, Problem 409 when there are no views.
@@ -86,21 +94,23 @@ class TeachSession {
   [[nodiscard]] Known known() const;
   static Proposal examine(SentPicture picture, const Wish& wish, const TeachOptions& options,
                           const Known& known);
-  /// `looking_` is held, `mutex_` is not.
-  Proposal look(SentPicture picture, const Wish& wish, const TeachOptions& options);
   [[nodiscard]] std::vector<ViewSummary> views() const;
+  void measure_redundancies();
   /// To be called, locked, by whatever changes it.
   void touch();
 
   const std::string id_, path_;
   const ObjectModel of_;  ///< unnamed: a new object
   Clock::time_point begun_ = Clock::now(), touched_ = begun_;
-  std::mutex looking_;  ///< held while a picture is looked at; taken before `mutex_`
+  JobSlots looks_;
   mutable std::mutex mutex_;
   std::optional<SentPicture> background_;
   std::optional<Proposal> proposal_;
   bool discarded_ = false;
   std::unique_ptr<ObjectStore> draft_;  ///< null as long as there are no views
+  /// By view: the share of its features that the object's views and those taken before it know.
+  std::map<std::string, double> redundancies_;
+  std::map<std::string, TaughtView> removed_;  ///< those that may come back
 };
 
 }  // namespace posevote::server

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kWait = 600;  // s
+
 class TeachSessionTest : public testing::Test {
  protected:
   TeachSessionTest() { fs::create_directory(folder_); }
@@ -50,7 +52,7 @@ class TeachSessionTest : public testing::Test {
 
   std::string folder_ =
       (fs::temp_directory_path() / ("posevote-session-" + std::to_string(getpid()))).string();
-  TeachSession session_{"id", folder_ + "/id.posevote"};
+  TeachSession session_{"id", folder_ + "/id.posevote", kWait};
 };
 
 TEST_F(TeachSessionTest, ItAnswersWhileItLooks) {
@@ -86,7 +88,7 @@ TEST_F(TeachSessionTest, WhatTheObjectHasAlreadyAddsNothing) {
   const Proposal first = session_.propose(picture(480), wish, TeachOptions());
   EXPECT_EQ(first.json()["adds_little"], false);
   EXPECT_EQ(session_.json()["object"], Json());
-  TeachSession more("more", folder_ + "/more.posevote",
+  TeachSession more("more", folder_ + "/more.posevote", kWait,
                     {"box", {std::make_shared<const View>(*first.view)}});
   const Json begun = more.json();
   EXPECT_EQ(begun["object"], "box");
@@ -94,6 +96,48 @@ TEST_F(TeachSessionTest, WhatTheObjectHasAlreadyAddsNothing) {
   EXPECT_EQ(begun["next_yaw"], 60);
   EXPECT_EQ(begun["views"].size(), 0U);
   EXPECT_EQ(more.propose(picture(480), wish, TeachOptions()).json()["adds_little"], true);
+}
+
+TEST_F(TeachSessionTest, AllSidesRoundItIsEnough) {
+  const SentPicture seen = picture(320);
+  Wish wish;
+  wish.whole = true;
+  for (int yaw = 0; yaw < 360; yaw += 30) {
+    EXPECT_EQ(session_.json()["enough"], false) << yaw;
+    wish.yaw_deg = yaw;
+    session_.propose(seen, wish, TeachOptions());
+    session_.accept(std::nullopt, TeachOptions().feature, "1");
+  }
+  EXPECT_EQ(session_.json()["enough"], true);
+  EXPECT_EQ(session_.json()["next_yaw"], Json());
+  session_.remove_view("5");
+  EXPECT_EQ(session_.json()["enough"], false);
+  session_.restore_view("5");
+  EXPECT_EQ(session_.json()["enough"], true);
+  EXPECT_THROW(session_.restore_view("5"), Problem) << "it is back already";
+}
+
+TEST_F(TeachSessionTest, AViewThatAddsLittleIsMarkedUntilTheOneThatItRepeatsIsGone) {
+  Wish wish;
+  wish.whole = true;
+  for (const int yaw : {0, 30}) {
+    wish.yaw_deg = yaw;
+    session_.propose(picture(480), wish, TeachOptions());
+    session_.accept(std::nullopt, TeachOptions().feature, "1");
+  }
+  const auto marks = [](const TeachSession& session) {
+    std::vector<bool> all;
+    const Json json = session.json();
+    for (const Json& view : json["views"]) all.push_back(view["adds_little"]);
+    return all;
+  };
+  EXPECT_EQ(marks(session_), (std::vector<bool>{false, true}));
+  EXPECT_EQ(marks(TeachSession("id", folder_ + "/id.posevote", kWait)), marks(session_))
+      << "after a restart, too";
+  session_.remove_view("1");
+  EXPECT_EQ(marks(session_), std::vector<bool>{false});
+  session_.restore_view("1");
+  EXPECT_EQ(marks(session_), (std::vector<bool>{false, true}));
 }
 
 TEST_F(TeachSessionTest, ACorrectedMaskReplacesTheProposalAndKeepsItsSide) {
@@ -110,7 +154,7 @@ TEST_F(TeachSessionTest, ACorrectedMaskReplacesTheProposalAndKeepsItsSide) {
   EXPECT_LT(corrected.view->features.size(), whole.view->features.size());
   session_.accept(std::nullopt, TeachOptions().feature, "1");
   EXPECT_EQ(session_.json()["views"].size(), 1U);
-  EXPECT_EQ(TeachSession("id", folder_ + "/id.posevote").json()["views"][0]["yaw"], 60)
+  EXPECT_EQ(TeachSession("id", folder_ + "/id.posevote", kWait).json()["views"][0]["yaw"], 60)
       << "it is on the disk";
 }
 

@@ -20,7 +20,7 @@ TeachSessions::TeachSessions(std::string folder, const Limits& limits,
     const std::string id = entry.path().stem().string();
     if (entry.path().extension() != kEnding) continue;
     try {
-      sessions_[id] = std::make_shared<TeachSession>(id, entry.path().string());
+      sessions_[id] = std::make_shared<TeachSession>(id, entry.path().string(), limits_.wait_s);
     } catch (const Error& error) {
       problem(std::string("a teach session of an earlier run cannot be taken up: ") + error.what());
     }
@@ -34,8 +34,8 @@ std::shared_ptr<TeachSession> TeachSessions::create(ObjectModel of) {
   if (static_cast<int>(sessions_.size()) >= limits_.sessions)
     throw too_many("there are " + std::to_string(sessions_.size()) +
                    " teach sessions in hand; save or discard one first");
-  return sessions_[id] =
-             std::make_shared<TeachSession>(id, folder_ + "/" + id + kEnding, std::move(of));
+  return sessions_[id] = std::make_shared<TeachSession>(id, folder_ + "/" + id + kEnding,
+                                                        limits_.wait_s, std::move(of));
 }
 
 std::shared_ptr<TeachSession> TeachSessions::find(const std::string& id) const {

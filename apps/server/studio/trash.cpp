@@ -28,26 +28,17 @@ bool is_id(const std::string& text) {
   return text.size() == 32 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
+double age_s(const fs::directory_entry& file) {
+  std::error_code gone;
+  const auto age = fs::file_time_type::clock::now() - file.last_write_time(gone);
+  return std::chrono::duration<double>(age).count();
+}
+
 void require_object(const ObjectStore& store, const std::string& name) {
   if (!has_object(store, name)) throw not_found("there is no object '" + name + "'");
 }
 
 }  // namespace
-
-/// What is written beside the views that were deleted.
-struct Trash::Note {
-  std::string object, view, into;
-
-  void save(const std::string& path) const {
-    write_file(path, to_line(Json{{"object", object}, {"view", view}, {"into", into}}));
-  }
-  static Note load(const std::string& path) {
-    std::ifstream file(path);
-    const Json json = Json::parse(file, nullptr, false);
-    if (!json.is_object()) throw not_found("this cannot be undone any more");
-    return {json.value("object", ""), json.value("view", ""), json.value("into", "")};
-  }
-};
 
 Trash::Trash(std::string folder, double keep_s) : folder_(std::move(folder)), keep_s_(keep_s) {
   expire();
@@ -62,7 +53,7 @@ std::string Trash::keep(const ObjectStore& store, const std::string& object,
       if (view.empty() || summary.id == view)
         to->add_view(object, store.view(object, summary.id), store.features().value());
   });
-  Note{object, view, into}.save(path(id) + ".json");
+  write_file(path(id) + ".json", to_line(Json{{"object", object}, {"view", view}, {"into", into}}));
   return id;
 }
 
@@ -110,7 +101,7 @@ std::string Trash::merge(ObjectStore& store, const std::string& object, const st
 std::string Trash::undo(ObjectStore& store, const std::string& id) {
   if (!is_id(id)) throw not_found("this cannot be undone any more");
   const std::lock_guard lock(mutex_);
-  const Note note = Note::load(path(id) + ".json");
+  const Deletion note = this->note(id);
   const auto from = open_small(path(id) + ".posevote", Access::read_only);
   store.transact([&] {
     if (note.view.empty() && has_object(store, note.object))
@@ -129,6 +120,26 @@ std::string Trash::undo(ObjectStore& store, const std::string& id) {
   return note.object;
 }
 
+Deletion Trash::note(const std::string& id) const {
+  const std::string file = path(id) + ".json";
+  std::ifstream stream(file);
+  const Json json = Json::parse(stream, nullptr, false);
+  if (!json.is_object()) throw not_found("this cannot be undone any more");
+  return {id, json.value("object", ""), json.value("view", ""), json.value("into", ""),
+          age_s(fs::directory_entry(file))};
+}
+
+std::vector<Deletion> Trash::list() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Deletion> all;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    const std::string id = entry.path().stem().string();
+    if (is_id(id) && entry.path().extension() == ".json") all.push_back(note(id));
+  }
+  std::ranges::sort(all, {}, &Deletion::age_s);
+  return all;
+}
+
 void Trash::forget(const std::string& id) const {
   std::error_code ignored;
   remove_database_file(path(id) + ".posevote");
@@ -137,13 +148,11 @@ void Trash::forget(const std::string& id) const {
 
 void Trash::expire() {
   const std::lock_guard lock(mutex_);
-  const auto now = fs::file_time_type::clock::now();
   std::vector<std::string> old;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder_, error)) {
     const std::string id = entry.path().stem().string();
-    const auto age = now - entry.last_write_time(error);
-    if (is_id(id) && std::chrono::duration<double>(age).count() > keep_s_) old.push_back(id);
+    if (is_id(id) && age_s(entry) > keep_s_) old.push_back(id);
   }
   for (const std::string& id : old) forget(id);
 }

@@ -77,6 +77,24 @@ TEST_F(TrashTest, AMergeIsTakenApartAgain) {
   EXPECT_EQ(views("b"), 3U) << "what b had before the merge";
 }
 
+TEST_F(TrashTest, WhatCanComeBackIsListedNewestFirst) {
+  EXPECT_TRUE(trash_.list().empty());
+  const std::string view = trash_.delete_view(*store_, "a", "1");
+  fs::last_write_time(folder_ + "/undo/" + view + ".json",
+                      fs::file_time_type::clock::now() - std::chrono::seconds(100));
+  const std::string merged = trash_.merge(*store_, "a", "b");
+  const auto all = trash_.list();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].id, merged);
+  EXPECT_EQ(all[0].into, "b");
+  EXPECT_EQ(all[1].id, view);
+  EXPECT_EQ(all[1].object, "a");
+  EXPECT_EQ(all[1].view, "1");
+  EXPECT_GE(all[1].age_s, 100);
+  trash_.undo(*store_, merged);
+  EXPECT_EQ(trash_.list().size(), 1U);
+}
+
 TEST_F(TrashTest, WhatCannotBe) {
   EXPECT_THROW(static_cast<void>(trash_.delete_object(*store_, "x")), Problem);
   EXPECT_THROW(static_cast<void>(trash_.delete_view(*store_, "a", "9")), Error);

@@ -123,15 +123,22 @@ class VideoSource : public FrameSource {
   std::int64_t count_ = 0;
 };
 
+double pixels_of(const cv::VideoCapture& capture) {
+  return capture.get(cv::CAP_PROP_FRAME_WIDTH) * capture.get(cv::CAP_PROP_FRAME_HEIGHT);
+}
+
 class CameraSource : public FrameSource {
  public:
-  CameraSource(cv::VideoCapture capture, std::string name)
-      : capture_(std::move(capture)), name_(std::move(name)) {}
+  CameraSource(cv::VideoCapture capture, std::string name, double max_megapixels)
+      : capture_(std::move(capture)), name_(std::move(name)), max_megapixels_(max_megapixels) {
+    check_size(pixels_of(capture_));
+  }
 
   std::optional<Frame> next() override {
     Frame frame;
     if (!capture_.read(frame.image) || frame.image.empty())
       throw Error(ErrorCode::io, name_ + " gives no more frames; is it still connected?");
+    check_size(static_cast<double>(frame.image.total()));
     frame.arrived = Clock::now();
     if (count_ == 0) start_ = frame.arrived;
     frame.image = frame.image.clone();
@@ -141,15 +148,17 @@ class CameraSource : public FrameSource {
   }
 
  private:
+  void check_size(double pixels) const {
+    if (pixels > max_megapixels_ * 1e6)
+      throw Error(ErrorCode::io, name_ + " gives frames that are too large");
+  }
+
   cv::VideoCapture capture_;
   std::string name_;
+  double max_megapixels_;
   Clock::time_point start_;
   std::int64_t count_ = 0;
 };
-
-double pixels_of(const cv::VideoCapture& capture) {
-  return capture.get(cv::CAP_PROP_FRAME_WIDTH) * capture.get(cv::CAP_PROP_FRAME_HEIGHT);
-}
 
 [[noreturn]] void fail_video(const std::string& path, const std::string& reason) {
   throw Error(ErrorCode::unreadable_image, "cannot read video '" + path + "': " + reason);
@@ -188,14 +197,14 @@ std::unique_ptr<FrameSource> open_video(const std::string& path, double max_mega
   return std::make_unique<VideoSource>(std::move(capture));
 }
 
-std::unique_ptr<FrameSource> open_camera(int number) {
+std::unique_ptr<FrameSource> open_camera(int number, double max_megapixels) {
   cv::VideoCapture capture(number);
   if (!capture.isOpened())
     throw Error(ErrorCode::not_found, "cannot open camera " + std::to_string(number) +
                                           ": it is not there, in use, or not permitted");
   capture.set(cv::CAP_PROP_BUFFERSIZE, 1);
-  return newest_only(
-      std::make_unique<CameraSource>(std::move(capture), "camera " + std::to_string(number)));
+  return newest_only(std::make_unique<CameraSource>(
+      std::move(capture), "camera " + std::to_string(number), max_megapixels));
 }
 
 std::unique_ptr<FrameSource> open_stream(const std::string& url, double max_megapixels) {
@@ -207,9 +216,7 @@ std::unique_ptr<FrameSource> open_stream(const std::string& url, double max_mega
   if (!capture.isOpened())
     throw Error(ErrorCode::io,
                 "cannot open " + name + ": nothing answers there, or it is no video");
-  if (pixels_of(capture) > max_megapixels * 1e6)
-    throw Error(ErrorCode::io, "cannot open " + name + ": its frames are too large");
-  return newest_only(std::make_unique<CameraSource>(std::move(capture), name));
+  return newest_only(std::make_unique<CameraSource>(std::move(capture), name, max_megapixels));
 }
 
 #else
@@ -219,7 +226,7 @@ std::unique_ptr<FrameSource> open_video(const std::string& path, double) {
               "cannot read video '" + path + "': this build has no video support");
 }
 
-std::unique_ptr<FrameSource> open_camera(int number) {
+std::unique_ptr<FrameSource> open_camera(int number, double) {
   throw Error(ErrorCode::unsupported,
               "cannot open camera " + std::to_string(number) + ": this build has no video support");
 }

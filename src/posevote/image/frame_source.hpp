@@ -34,12 +34,14 @@ class FrameSource {
                                                       double max_megapixels = 100);
 
 /// The newest frame of the N-th camera; frames that arrive while the receiver is busy are dropped.
-/// Throws Error{not_found} when there is none or it is in use, Error{unsupported} as above.
-[[nodiscard]] std::unique_ptr<FrameSource> open_camera(int number);
+/// Throws Error{not_found} when there is none or it is in use, Error{io} when its frames are larger
+/// than `max_megapixels`, Error{unsupported} as above.
+[[nodiscard]] std::unique_ptr<FrameSource> open_camera(int number, double max_megapixels = 100);
 
 /// The newest frame of a network camera: rtsp://, rtsps://, http:// or https:// address. Throws
-/// Error{io} when nothing answers there within some seconds or it is no video, Error{unsupported}
-/// as above. The address may hold a password: messages leave it out.
+/// Error{io} when nothing answers there within some seconds, it is no video or its frames are
+/// larger than `max_megapixels`, Error{unsupported} as above. The address may hold a password:
+/// messages leave it out.
 [[nodiscard]] std::unique_ptr<FrameSource> open_stream(const std::string& url,
                                                        double max_megapixels = 100);
 

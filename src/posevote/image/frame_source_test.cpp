@@ -1,6 +1,8 @@
 #include "posevote/image/frame_source.hpp"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <condition_variable>
@@ -194,6 +196,23 @@ TEST(OpenStream, AnAddressWithoutAnswerIsAnErrorThatHidesThePassword) {
     EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("secret")));
   }
 }
+
+#ifdef POSEVOTE_WITH_VIDEO
+TEST(OpenStream, AServerThatSaysNothingIsGivenUp) {
+  const int server = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(bind(server, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(listen(server, 8), 0);  // connections are made, and nobody answers
+  getsockname(server, reinterpret_cast<sockaddr*>(&address), &size);
+  const std::string host = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  for (const char* scheme : {"rtsp://", "http://"})
+    EXPECT_THROW(static_cast<void>(open_stream(scheme + host + "/head")), Error) << scheme;
+  close(server);
+}
+#endif
 
 TEST(OpenStream, WithoutPassword) {
   EXPECT_EQ(without_password("rtsp://user:p@ss@host:554/a@b"), "rtsp://host:554/a@b");

@@ -49,6 +49,22 @@ TEST(Annotate, OutlineTintLabelAndPointsAreDrawnWhereTheObjectIs) {
   EXPECT_EQ(changed(image, {0, 210, 320, 30}), 0);
 }
 
+TEST(Annotate, TheLabelTellsTheProbabilityAndEq11OnlyWhereThereIsNone) {
+  const auto drawn = [](double probability, double confidence) {
+    RecognitionResult result = made_result();
+    result.detections[0].probability = probability;
+    result.detections[0].confidence = confidence;
+    return annotate(grey_picture(), result);
+  };
+  const auto same = [](const cv::Mat& a, const cv::Mat& b) {
+    return cv::norm(a, b, cv::NORM_INF) == 0;
+  };
+  EXPECT_TRUE(same(drawn(0.9, 0.3), drawn(0.9, 0.5)));
+  EXPECT_FALSE(same(drawn(0.9, 0.3), drawn(0.8, 0.3)));
+  EXPECT_TRUE(same(drawn(0, 0.3), drawn(0.3, 0.5)));
+  EXPECT_TRUE(same(drawn(0.9999, 0.3), drawn(0.996, 0.3))) << "never 100 %";
+}
+
 TEST(Annotate, TintAndPointsCanBeLeftOut) {
   AnnotateOptions options;
   options.fill = options.points = false;

@@ -82,6 +82,9 @@ class ObjectStore {
   /// Whether this user may also remove and rename.
   [[nodiscard]] virtual bool may_remove() const { return !read_only(); }
 
+  /// What it takes up where it is kept, with whatever else the same database holds.
+  [[nodiscard]] virtual std::int64_t size_bytes() const = 0;
+
   /// Grows with every change, whichever process made it.
   [[nodiscard]] virtual std::int64_t version() const = 0;
 

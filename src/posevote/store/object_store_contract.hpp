@@ -64,6 +64,13 @@ inline void expect_equal(const Features& a, const Features& b) {
   EXPECT_TRUE(bytes == 0 || std::memcmp(a.descriptors.data, b.descriptors.data, bytes) == 0);
 }
 
+TEST_P(Store, ItSaysHowLargeItIs) {
+  const std::int64_t empty = store_->size_bytes();
+  EXPECT_GT(empty, 0);
+  for (int i = 0; i < 20; ++i) store_->add_view("mug", made_view(i, 300), surf);
+  EXPECT_GT(store_->size_bytes(), empty);
+}
+
 TEST_P(Store, ANewDatabaseIsEmpty) {
   EXPECT_TRUE(store_->list().empty());
   EXPECT_FALSE(store_->features());

@@ -63,23 +63,95 @@ test("the keyboard alone gets from the live picture into a new object", async ()
   expect(await focused()).toBe("Take this view");
   await page.keyboard.press("Enter");
   await page.getByText("1 view taken").waitFor();
-  await page.locator(".side.next").focus();
+  const tab_to = async (what: string): Promise<void> => {
+    for (let i = 0; i < 20 && !(await page.evaluate((s) => document.activeElement!.matches(s), what)); ++i)
+      await page.keyboard.press("Tab");
+  };
+  await tab_to(".side.next");
   await page.keyboard.press("ArrowRight");
   expect(await page.locator(".side:focus").getAttribute("aria-label")).toContain("missing");
   expect(await page.locator(".side.next").getAttribute("aria-checked")).toBe("true");
+  await tab_to("input[autocomplete=off]");
+  await page.keyboard.type("cup");
+  await tab_to("button.primary:not([aria-disabled])");
+  expect(await focused()).toContain("Save");
+  await page.keyboard.press("Enter");
+  await page.getByText("“cup” is known").waitFor();
 });
+
+type Watched = typeof globalThis & { shifts: number[] };
+
+/// Counts from the next load on what moves though nobody has touched anything.
+async function watch_shifts(page: Page): Promise<void> {
+  await page.addInitScript(() => {
+    const shifts: number[] = ((globalThis as unknown as Watched).shifts = []);
+    new PerformanceObserver((list) => {
+      for (const entry of list.getEntries() as unknown as { value: number; hadRecentInput: boolean }[])
+        if (!entry.hadRecentInput) shifts.push(entry.value);
+    }).observe({ type: "layout-shift", buffered: true });
+  });
+  await page.reload();
+}
+
+async function shifted(page: Page): Promise<number> {
+  const shifts = await page.evaluate(() => (globalThis as unknown as Watched).shifts);
+  return shifts.reduce((sum, value) => sum + value, 0);
+}
 
 test("nothing jumps while the live picture comes up", async () => {
   await studio.show("test/reading.jpg");
   const page = await studio.open("#/live");
-  await page.addInitScript(() => {
-    const shifts: number[] = ((globalThis as Record<string, unknown>).shifts = []) as number[];
-    new PerformanceObserver((list) => {
-      for (const entry of list.getEntries()) shifts.push((entry as unknown as { value: number }).value);
-    }).observe({ type: "layout-shift", buffered: true });
-  });
-  await page.reload();
+  await watch_shifts(page);
   await page.locator(".found-name").first().waitFor();
-  const shifts = await page.evaluate(() => (globalThis as unknown as { shifts: number[] }).shifts);
-  expect(shifts.reduce((sum, value) => sum + value, 0)).toBeLessThan(0.05);
+  expect(await shifted(page)).toBeLessThan(0.05);
+});
+
+test("nothing jumps while the page looks at what is taught", async () => {
+  const page = await studio.open("#/teach");
+  await watch_shifts(page);
+  await begin_teaching(page);
+  await studio.show("train/mug/background.jpg");
+  await page.locator(".verdict.bad").waitFor();
+  await studio.show("train/mug/y060.jpg");
+  await page.locator(".verdict.warn, .verdict.good").waitFor();
+  expect(await shifted(page)).toBeLessThan(0.05);
+  await start_over(page);
+});
+
+/// Until one view is taken.
+async function begin_teaching(page: Page): Promise<void> {
+  await studio.show("train/mug/background.jpg");
+  await page.getByRole("button", { name: "The table is empty" }).click();
+  await page.locator(".verdict.bad").waitFor();
+  await studio.show("train/mug/y060.jpg");
+  await page.locator(".verdict.good").waitFor();
+  await page.getByRole("button", { name: "Take this view" }).click();
+  await page.getByText("1 view taken").waitFor();
+  await page.locator(".verdict.warn").waitFor();
+}
+
+async function start_over(page: Page): Promise<void> {
+  await page.getByRole("button", { name: "Start over" }).click();
+  await page.getByRole("dialog").getByRole("button", { name: "Start over" }).click();
+  await page.getByText("1 view taken").waitFor({ state: "detached" });
+}
+
+test.each(kSizes)("teaching is for everybody: $name", async ({ name, ...options }) => {
+  const page = await studio.open("#/teach", { ...options, bypassCSP: true });
+  await begin_teaching(page);
+  await studio.shoot(page, `${name}-teaching`);
+  await check_for_everybody(page, "teaching");
+  await start_over(page);
+});
+
+test("screen readers hear of verdicts and names when they change, not of every look", async () => {
+  await studio.show("test/reading.jpg");
+  const page = await studio.open("#/live");
+  await page.getByRole("status").filter({ hasText: "mug" }).waitFor({ state: "attached" });
+  await page.goto(`${studio.address}/#/teach`);
+  await begin_teaching(page);
+  const announced = page.getByRole("status").filter({ hasText: "known already" });
+  await announced.waitFor({ state: "attached" });
+  expect(await page.locator(".verdict").getAttribute("role")).toBeNull();
+  await start_over(page);
 });

@@ -61,6 +61,19 @@ test("an object is deleted and comes back", async () => {
   expect(await names()).toHaveLength(3);
 });
 
+test("what was deleted is found again when its message is gone", async () => {
+  await page.getByRole("button", { name: "Delete" }).click();
+  await page.getByText("is deleted").first().waitFor();
+  await page.reload();
+  await page.getByText("Recently deleted (1)").click();
+  await page.getByText("“tomato soup / 400 ml” just now").waitFor();
+  await studio.shoot(page, "recently-deleted");
+  await check_for_everybody(page, "recently deleted");
+  await page.getByRole("button", { name: "Bring back: “tomato soup / 400 ml”" }).click();
+  await expect.poll(() => page.locator("a.object").count()).toBe(3);
+  await expect.poll(() => page.getByText("Recently deleted").count()).toBe(0);
+});
+
 test("a view has a quality card, and can be deleted with a way back", async () => {
   await page.goto(`${studio.address}/#/objects/mug`);
   await page.locator(".view", { hasText: "30°" }).click();
@@ -128,6 +141,12 @@ test("what was exported is imported again", async () => {
   await expect.poll(() => page.locator("a.object").count()).toBe(2);
   await page.locator("#import-file").setInputFiles(file);
   await check_for_everybody(page, "import");
+  const go = page.getByRole("dialog").getByRole("button", { name: "Import" });
+  await page.getByLabel("Replace the object that is there").check();
+  expect(await go.isDisabled()).toBe(true);
+  await page.getByLabel("this cannot be undone").check();
+  expect(await go.isDisabled()).toBe(false);
+  await page.getByLabel("Add the views").check();
   await page.getByRole("dialog").getByRole("button", { name: "Import" }).click();
   await page.getByText(/Imported 3 objects/).waitFor();
   await expect.poll(() => page.locator("a.object").count()).toBe(3);

@@ -45,6 +45,8 @@ test("an object is taught in under a minute and recognised in the very next fram
   await studio.shoot(page, "live-empty");
   await page.getByRole("link", { name: "New object" }).click();
   await page.getByRole("heading", { name: "1. Clear the table" }).waitFor();
+  const clock = page.getByRole("timer", { name: "Time taken" });
+  await expect.poll(() => clock.textContent()).toMatch(/0:0[1-9]/); // it runs from "New object" on
   await page.getByRole("button", { name: "The table is empty" }).click();
 
   const verdict = page.locator(".verdict");
@@ -64,7 +66,10 @@ test("an object is taught in under a minute and recognised in the very next fram
   await studio.shoot(page, "teach-name");
   await page.getByRole("button", { name: "Save" }).click();
 
-  await page.getByText("“tea-mint” is known").waitFor();
+  const said = await page.locator(".toast", { hasText: "“tea-mint” is known" }).textContent();
+  const [, said_s] = /4 views in (\d+) s/.exec(said!)!;
+  expect(Number(said_s)).toBeGreaterThan(0);
+  expect(Number(said_s)).toBeLessThanOrEqual(Math.ceil((performance.now() - begin) / 1000));
   await studio.show("test/breakfast.jpg");
   await page.locator(".detection", { hasText: "tea-mint" }).waitFor();
   const taken_s = (performance.now() - begin) / 1000;
@@ -123,12 +128,33 @@ test("a side that is known already is said to add little", async () => {
   await page.locator(".verdict.warn").waitFor();
   expect(await page.locator(".verdict").textContent()).toContain("known already");
   await check_for_everybody(page, "teaching");
+  await page.getByRole("button", { name: "Take this view" }).click(); // nevertheless
+  await page.locator(".taken-view", { hasText: "30°" }).getByText("adds little").waitFor();
+  expect(await page.locator(".side.idle").getAttribute("aria-label")).toContain("adds little");
+  await studio.shoot(page, "teach-adds-little");
+  await check_for_everybody(page, "a view that adds little");
 });
 
-test("views that were taken outlive a reload, and can be taken out", async () => {
+test("views that were taken outlive a reload, and are not thrown away by one click", async () => {
   await page.reload();
+  await page.getByRole("button", { name: "Discard" }).click();
+  await page.getByRole("dialog").getByText("2 views will be lost").waitFor();
+  await check_for_everybody(page, "discard");
+  await page.getByRole("button", { name: "Keep them" }).click();
   await page.getByRole("button", { name: "Go on with it" }).click();
+  await page.getByRole("button", { name: "Start over" }).click();
+  await page.getByRole("dialog").getByText("2 views taken so far will be lost").waitFor();
+  await page.getByRole("button", { name: "Go on", exact: true }).click();
+  expect(await page.locator(".taken-view").count()).toBe(2);
+});
+
+test("a view that was taken is taken out, and comes back", async () => {
   await page.getByRole("button", { name: "Take out view 0°" }).click();
+  await expect.poll(() => page.locator(".taken-view").count()).toBe(1);
+  expect(await page.locator(".taken-mark").count()).toBe(0); // what it repeated is gone
+  await page.locator(".toast", { hasText: "View 0° is taken out" }).getByRole("button", { name: "Undo" }).click();
+  await expect.poll(() => page.locator(".taken-view").count()).toBe(2);
+  for (const side of ["0°", "30°"]) await page.getByRole("button", { name: `Take out view ${side}` }).click();
   await expect.poll(() => page.locator(".taken-view").count()).toBe(0);
 });
 

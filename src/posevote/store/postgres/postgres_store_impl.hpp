@@ -18,6 +18,7 @@ class PostgresStore : public ObjectStore {
   const std::string& location() const override { return location_; }
   bool read_only() const override;
   bool may_remove() const override;
+  std::int64_t size_bytes() const override;
   std::int64_t version() const override;
   bool wait_for_change(std::int64_t known, std::chrono::milliseconds timeout) const override;
   std::optional<FeatureRecord> features() const override;

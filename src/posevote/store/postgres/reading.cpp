@@ -84,6 +84,12 @@ bool PostgresStore::may_remove() const {
   return has_right("DELETE");
 }
 
+std::int64_t PostgresStore::size_bytes() const {
+  return reading([&] {
+    return work_->exec1("SELECT pg_database_size(current_database())")[0].as<std::int64_t>();
+  });
+}
+
 std::int64_t PostgresStore::version() const {
   return reading([&] {
     return work_->exec1("SELECT value FROM posevote.meta WHERE key = 'changes'")[0]

@@ -2,6 +2,8 @@
 #include <SQLiteCpp/Statement.h>
 #include <sqlite3.h>
 
+#include <filesystem>
+
 #include "posevote/core/error.hpp"
 #include "posevote/store/sqlite/rows.hpp"
 #include "posevote/store/sqlite/sqlite_store_impl.hpp"
@@ -25,6 +27,16 @@ std::string SqliteStore::meta(const std::string& key) const {
   if (!select.executeStep())
     fail(ErrorCode::database_unusable, "is damaged: its '" + key + "' is missing");
   return select.getColumn(0).getString();
+}
+
+std::int64_t SqliteStore::size_bytes() const {
+  std::int64_t bytes = 0;
+  for (const char* suffix : {"", "-wal"}) {
+    std::error_code missing;
+    const auto size = std::filesystem::file_size(path_ + suffix, missing);
+    if (!missing) bytes += static_cast<std::int64_t>(size);
+  }
+  return bytes;
 }
 
 std::int64_t SqliteStore::version() const {

@@ -21,6 +21,7 @@ class SqliteStore : public ObjectStore {
 
   const std::string& location() const override { return path_; }
   bool read_only() const override;
+  std::int64_t size_bytes() const override;
   std::int64_t version() const override;
   std::optional<FeatureRecord> features() const override;
   std::vector<ObjectSummary> list() const override;

@@ -37,6 +37,8 @@ export const merge_object = (name: string, into: string) =>
   ask<t.Undo>("POST", ["objects", name, "merge"], { json: { into } });
 export const delete_object = (name: string) => ask<t.Undo>("DELETE", ["objects", name]);
 export const delete_view = (name: string, view: string) => ask<t.Undo>("DELETE", ["objects", name, "views", view]);
+export const list_deletions = (signal: AbortSignal) =>
+  ask<{ deletions: t.Deletion[] }>("GET", ["undo"], { signal });
 export const undo = (id: string) => ask<t.TaughtObject>("POST", ["undo", id]);
 export const get_view = (name: string, view: string, signal: AbortSignal) =>
   ask<t.View>("GET", ["objects", name, "views", view], { signal });
@@ -79,6 +81,8 @@ export const accept_view = (id: string, yaw?: number) =>
   ask<t.TeachSession>("POST", [kSessions, id, "views"], { query: { yaw } });
 export const remove_session_view = (id: string, view: string) =>
   ask<t.TeachSession>("DELETE", [kSessions, id, "views", view]);
+export const restore_session_view = (id: string, view: string) =>
+  ask<t.TeachSession>("POST", [kSessions, id, "views", view, "restore"]);
 export const session_view_thumbnail = (id: string, view: string) =>
   path_of([kSessions, id, "views", view, "picture"], { width: kThumbnail });
 export const save_session = (id: string, object: string, add_to_existing: boolean) =>

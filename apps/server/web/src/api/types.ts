@@ -95,6 +95,10 @@ export interface ViewSummary {
   taught_at: string;
 }
 
+export interface TakenView extends ViewSummary {
+  adds_little: boolean; // most of it is known from the views before it
+}
+
 export interface View extends ViewSummary {
   outline: Point[];
 }
@@ -121,6 +125,13 @@ export interface Undo {
   expires_s: number;
 }
 
+export interface Deletion extends Undo {
+  age_s: number;
+  object: string;
+  view: string | null; // null: all of them
+  into: string | null; // that it was merged into
+}
+
 export interface Impostor {
   impostor: string;
   features: number;
@@ -134,7 +145,7 @@ export interface TeachSession {
   known_yaws: number[]; // of the views that it has already
   seconds: number;
   background: boolean;
-  views: ViewSummary[];
+  views: TakenView[];
   next_yaw: number | null;
   enough: boolean;
 }

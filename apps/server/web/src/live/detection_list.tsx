@@ -43,9 +43,7 @@ export function DetectionList({ detections, unknown = [], frame, picture, on_cho
           {...choosing(i)}
         >
           <a href={link_to("objects", found.object)}>{found.object}</a>
-          <span class="number" title={evidence_of(found)}>
-            {sureness(found)}
-          </span>
+          <span class="number">{sureness(found)}</span>
           <button
             class="button plain"
             aria-label={`${found.object} is wrong here`}
@@ -54,6 +52,7 @@ export function DetectionList({ detections, unknown = [], frame, picture, on_cho
           >
             Wrong
           </button>
+          <span class="detection-also small muted">{evidence_of(found)}</span>
           {found.alternatives?.length ? (
             <span class="detection-also small muted">or {found.alternatives.join(", ")}: cannot be told apart here</span>
           ) : null}

@@ -1,4 +1,5 @@
-// Detections come slower than frames: between two of them the outlines glide.
+// Detections come slower and later than frames: between two of them the outlines glide, and move on as
+// they moved last to where they are in the frame on the screen.
 import type { Detection, Point } from "../api/types";
 
 const centre = (found: Detection): Point => [found.box[0] + found.box[2] / 2, found.box[1] + found.box[3] / 2];
@@ -26,6 +27,46 @@ export function glide(before: Detection[], now: Detection[], t: number): Detecti
       ...found,
       outline: found.outline.map((p, i) => [mix(old.outline[i]![0], p[0], t), mix(old.outline[i]![1], p[1], t)]),
       box: found.box.map((value, i) => mix(old.box[i]!, value, t)) as Detection["box"],
+    };
+  });
+}
+
+const kMostAhead = 1.5; // times the frames between the last two results: farther off it is a guess
+const kStill = 0.01; // of the object's size: that much a detection trembles
+
+/// Detections of a frame.
+export interface Seen {
+  frame: number;
+  detections: Detection[];
+}
+
+/// How far each detection of `now` moves from frame to frame, px; nothing where that is not known.
+export function travel(before: Seen, now: Seen): Point[] {
+  const frames = now.frame - before.frame;
+  return now.detections.map((found) => {
+    const old = frames > 0 ? earlier_of(found, before.detections) : undefined;
+    if (!old) return [0, 0];
+    const [a, b] = [centre(old), centre(found)];
+    if (distance(a, b) < kStill * Math.max(found.box[2], found.box[3])) return [0, 0];
+    return [(b[0] - a[0]) / frames, (b[1] - a[1]) / frames];
+  });
+}
+
+/// The frames from `now` to the one on the screen over which it is known how things move on.
+export function frames_ahead(before: Seen, now: Seen, on_screen: number): number {
+  return Math.min(Math.max(0, on_screen - now.frame), kMostAhead * Math.max(0, now.frame - before.frame));
+}
+
+/// Each detection shifted by `frames` times its travel.
+export function move_on(detections: Detection[], travels: Point[], frames: number): Detection[] {
+  return detections.map((found, i) => {
+    const [dx, dy] = [travels[i]![0] * frames, travels[i]![1] * frames];
+    if (dx === 0 && dy === 0) return found;
+    const [x, y, width, height] = found.box;
+    return {
+      ...found,
+      outline: found.outline.map(([px, py]): Point => [px + dx, py + dy]),
+      box: [x + dx, y + dy, width, height],
     };
   });
 }

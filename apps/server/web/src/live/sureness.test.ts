@@ -18,10 +18,10 @@ test("the calibrated probability is shown, never as certain", () => {
   expect(sureness(found(0.9996, 0.26))).toBe("> 99 %");
 });
 
-test("without one it is Eq. 11", () => {
-  expect(sureness(found(0, 0.26))).toBe("26 %");
+test("without one it is Eq. 11, and says so", () => {
+  expect(sureness(found(0, 0.26))).toBe("26 % (Eq. 11)");
 });
 
 test("the features behind it are counted", () => {
-  expect(evidence_of(found(0.9, 0.26))).toBe("26 of 100 features there agree on it: 26 % (Eq. 11)");
+  expect(evidence_of(found(0.9, 0.26))).toBe("26 of 100 features agree: 26 % (Eq. 11)");
 });

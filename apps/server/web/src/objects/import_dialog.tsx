@@ -14,6 +14,7 @@ const kChoices = [
 
 export function ImportDialog({ file, on_close }: { file: File; on_close: () => void }) {
   const [existing, set_existing] = useState<string>("merge");
+  const [sure, set_sure] = useState(false);
   const problem = use_problem();
   async function run(): Promise<void> {
     const { objects, views_added, views_known } = await import_objects(file, existing);
@@ -27,13 +28,31 @@ export function ImportDialog({ file, on_close }: { file: File; on_close: () => v
         <legend class="label">If a name is taken</legend>
         {kChoices.map(([value, label]) => (
           <label key={value} class="choice">
-            <input type="radio" name="existing" checked={existing === value} onChange={() => set_existing(value)} />
+            <input
+              type="radio"
+              name="existing"
+              checked={existing === value}
+              onChange={() => {
+                set_existing(value);
+                set_sure(false);
+              }}
+            />
             {label}
           </label>
         ))}
       </fieldset>
+      {existing === "replace" && (
+        <label class="choice note warn">
+          <input type="checkbox" checked={sure} onChange={(event) => set_sure(event.currentTarget.checked)} />
+          What is replaced is lost: this cannot be undone.
+        </label>
+      )}
       {problem.shown}
-      <button class="button primary" disabled={problem.busy} onClick={() => void problem.run(run)}>
+      <button
+        class="button primary"
+        disabled={problem.busy || (existing === "replace" && !sure)}
+        onClick={() => void problem.run(run)}
+      >
         {problem.busy ? "Importing …" : "Import"}
       </button>
     </Dialog>

@@ -7,6 +7,7 @@ import { use_loaded } from "../ui/loaded";
 import { count } from "../ui/numbers";
 import { Failed, State, Waiting } from "../ui/state";
 import { ImportDialog } from "./import_dialog";
+import { RecentlyDeleted } from "./recently_deleted";
 import "./objects_page.css";
 
 export function ObjectsPage() {
@@ -78,6 +79,7 @@ export function ObjectsPage() {
         </ul>
       )}
       {data && all.length > 0 && shown.length === 0 && <p class="muted">No object is called “{sought}”.</p>}
+      {data && <RecentlyDeleted />}
       {file && <ImportDialog file={file} on_close={() => set_file(null)} />}
     </div>
   );

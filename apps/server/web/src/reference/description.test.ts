@@ -10,7 +10,7 @@ test("every operation of the description stands under one tag, with its referenc
   expect(all.map(({ id }) => id).sort()).toEqual([...described].sort());
   for (const one of all) {
     expect(one.parameters.every(({ name, schema }) => name && schema), one.id).toBe(true);
-    expect(one.responses.every(([status, { description }]) => /^\d{3}$/.test(status) && description), one.id).toBe(true);
+    expect(one.responses.every(([status, { description }]) => /^(\d{3}|default)$/.test(status) && description), one.id).toBe(true);
   }
 });
 

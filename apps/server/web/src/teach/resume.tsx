@@ -1,6 +1,7 @@
 // Views of a session that was left: go on, or throw them away.
 import { discard_session, list_sessions } from "../api/calls";
 import type { TeachSession } from "../api/types";
+import { AskFirst } from "../ui/ask_first";
 import { use_loaded } from "../ui/loaded";
 import { clock, count } from "../ui/numbers";
 import { attempt } from "../ui/toast";
@@ -20,12 +21,13 @@ export function Resume({ on_resume }: { on_resume: (session: TeachSession) => vo
             <button class="button" onClick={() => on_resume(session)}>
               Go on with it
             </button>
-            <button
-              class="button plain"
-              onClick={() => void attempt(() => discard_session(session.session)).then(reload)}
-            >
-              Discard
-            </button>
+            <AskFirst
+              label="Discard"
+              title="Discard these views?"
+              text={`${count(session.views.length, "view")} will be lost.`}
+              keep="Keep them"
+              on_sure={() => void attempt(() => discard_session(session.session)).then(reload)}
+            />
           </span>
         </div>
       ))}

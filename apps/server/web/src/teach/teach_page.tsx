@@ -3,6 +3,7 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import { live } from "../api/events";
 import type { Saved } from "../api/types";
 import { go_to } from "../router";
+import { AskFirst } from "../ui/ask_first";
 import { Clock } from "../ui/clock";
 import { attempt, say } from "../ui/toast";
 import { count } from "../ui/numbers";
@@ -36,7 +37,8 @@ export function TeachPage({ name }: { name: string }) {
     set_way(chosen);
   }
   function on_saved(saved: Saved): void {
-    say(`“${saved.object}” is known: ${count(saved.views_added, "view")} in ${Math.round(saved.seconds)} s.`, {
+    const taken_s = Math.round((performance.now() - teaching.begun.value) / 1000);
+    say(`“${saved.object}” is known: ${count(saved.views_added, "view")} in ${taken_s} s.`, {
       label: "Show",
       run: () => go_to("objects", saved.object),
     });
@@ -47,11 +49,7 @@ export function TeachPage({ name }: { name: string }) {
       <header class="row spread">
         <h1>{name ? `More views of “${name}”` : "New object"}</h1>
         <div class="row">
-          {session && (
-            <button class="button plain" onClick={() => void attempt(() => teaching.discard())}>
-              Start over
-            </button>
-          )}
+          {session && <StartOver teaching={teaching} />}
           <Clock since={teaching.begun.value} />
         </div>
       </header>
@@ -77,5 +75,25 @@ export function TeachPage({ name }: { name: string }) {
         </section>
       )}
     </div>
+  );
+}
+
+function StartOver({ teaching }: { teaching: Teaching }) {
+  const discard = (): void => void attempt(() => teaching.discard());
+  const views = teaching.session.value!.views.length;
+  if (views === 0)
+    return (
+      <button class="button plain" onClick={discard}>
+        Start over
+      </button>
+    );
+  return (
+    <AskFirst
+      label="Start over"
+      title="Start over?"
+      text={`${count(views, "view")} taken so far will be lost.`}
+      keep="Go on"
+      on_sure={discard}
+    />
   );
 }

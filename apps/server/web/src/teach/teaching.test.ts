@@ -1,13 +1,13 @@
 import { beforeEach, expect, test, vi } from "vitest";
-import type { TeachSession, ViewSummary } from "../api/types";
-import { next_side, Teaching } from "./teaching";
+import type { TakenView, TeachSession } from "../api/types";
+import { idle_sides, next_side, Teaching } from "./teaching";
 
-function view(yaw: number | null): ViewSummary {
-  return { view: "1", yaw, width: 4, height: 3, features: 9, coverage: 1, method: "mask", source: "", taught_at: "" };
+function view(yaw: number | null, adds_little = false): TakenView {
+  return { adds_little, view: "1", yaw, width: 4, height: 3, features: 9, coverage: 1, method: "mask", source: "", taught_at: "" };
 }
 
 function session(yaws: (number | null)[], next_yaw: number | null = null, known_yaws: number[] = []): TeachSession {
-  return { session: "s1", object: null, known_yaws, seconds: 2, background: false, views: yaws.map(view), next_yaw, enough: false };
+  return { session: "s1", object: null, known_yaws, seconds: 2, background: false, views: yaws.map((yaw) => view(yaw)), next_yaw, enough: false };
 }
 
 let asked: string[];
@@ -32,6 +32,26 @@ test("the next side is the largest gap, else a turn on from the last", () => {
   expect(next_side(session([], 58, [0, 30]))).toBe(60);
 });
 
+test("a side is idle when only views that add little show it", () => {
+  const taken = { ...session([]), views: [view(0), view(60, true), view(5, true), view(90, true), view(null, true)] };
+  expect(idle_sides(taken)).toEqual([60, 90]);
+  expect(idle_sides({ ...taken, known_yaws: [90] })).toEqual([60]);
+});
+
+test("the clock runs from the beginning, and anew after starting over", async () => {
+  vi.spyOn(performance, "now").mockReturnValue(1000);
+  const teaching = new Teaching();
+  expect(teaching.begun.value).toBe(1000);
+  vi.spyOn(performance, "now").mockReturnValue(5000);
+  await teaching.look({}); // the server's session begins only now
+  expect(teaching.begun.value).toBe(1000);
+  await teaching.discard();
+  expect(teaching.begun.value).toBe(5000);
+  teaching.adopt(session([0]));
+  expect(teaching.begun.value).toBe(3000);
+  vi.restoreAllMocks();
+});
+
 test("an object that gets further views goes on where they end", async () => {
   answers["POST /api/teach-sessions?object=mug"] = session([], 60, [0, 30]);
   const teaching = new Teaching("mug");
@@ -43,7 +63,6 @@ test("a session begins with the first need and only once", async () => {
   const teaching = new Teaching();
   await Promise.all([teaching.look({}), teaching.look({})]);
   expect(asked.filter((what) => what === "POST /api/teach-sessions")).toHaveLength(1);
-  expect(teaching.begun.value).not.toBeNull();
 });
 
 test("a view that is refused is not accepted", async () => {

@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import * as api from "../api/calls";
 import type { Proposal, Saved, TeachSession } from "../api/types";
-import { wrap } from "./sides";
+import { apart, wrap } from "./sides";
 
 export const kTurnDeg = 30;
 
@@ -11,7 +11,7 @@ export class Teaching {
   readonly proposal = signal<Proposal | null>(null);
   /// Side that the next view is of; null: not known, as for a cover.
   readonly yaw = signal<number | null>(0);
-  readonly begun = signal<number | null>(null); // performance.now() of the beginning
+  readonly begun = signal(performance.now());
   readonly taking = signal(false);
   /// Why the last look gave nothing; empty when it did.
   readonly trouble = signal("");
@@ -21,7 +21,8 @@ export class Teaching {
 
   /// Goes on with a session that is there already.
   adopt(session: TeachSession): void {
-    this.begin(session);
+    this.session.value = session;
+    this.begun.value = performance.now() - session.seconds * 1000;
     this.yaw.value = next_side(session);
   }
 
@@ -84,6 +85,10 @@ export class Teaching {
     this.session.value = await api.remove_session_view(await this.id(), view);
   }
 
+  async restore(view: string): Promise<void> {
+    this.session.value = await api.restore_session_view(await this.id(), view);
+  }
+
   async save(name: string, add_to_existing: boolean): Promise<Saved> {
     return api.save_session(await this.id(), name, add_to_existing);
   }
@@ -101,7 +106,8 @@ export class Teaching {
 
   async discard(): Promise<void> {
     const left = this.session.value;
-    this.session.value = this.proposal.value = this.begun.value = null;
+    this.session.value = this.proposal.value = null;
+    this.begun.value = performance.now();
     this.yaw.value = 0;
     if (left) await api.discard_session(left.session);
   }
@@ -110,23 +116,26 @@ export class Teaching {
   private looking: Promise<unknown> = Promise.resolve();
   private beginning: Promise<TeachSession> | null = null;
 
-  private begin(session: TeachSession): void {
-    this.session.value = session;
-    this.begun.value = performance.now() - session.seconds * 1000;
-  }
-
   private async id(): Promise<string> {
     if (this.closed) throw new Error("This page was left.");
     if (!this.session.value) {
       this.beginning ??= api.create_session(this.of).finally(() => (this.beginning = null));
       const session = await this.beginning;
       if (!this.session.value) {
-        this.begin(session);
+        this.session.value = session;
         if (session.known_yaws.length > 0) this.yaw.value = next_side(session);
       }
     }
     return this.session.value!.session;
   }
+}
+
+/// Sides of which only views were taken that add little.
+export function idle_sides(session: TeachSession): number[] {
+  const useful = [...session.known_yaws, ...session.views.filter((view) => !view.adds_little).map(({ yaw }) => yaw)];
+  return session.views.flatMap(({ yaw, adds_little }) =>
+    yaw != null && adds_little && !useful.some((other) => other != null && apart(other, yaw) < kTurnDeg / 2) ? [yaw] : [],
+  );
 }
 
 /// Sides that are known: of the views taken, after those that the object had before.

@@ -5,7 +5,7 @@ import { sentence } from "../ui/numbers";
 import { attempt } from "../ui/toast";
 import { ProposalMask } from "./proposal_mask";
 import { Ring } from "./ring";
-import { kTurnDeg, sides_of, type Teaching } from "./teaching";
+import { idle_sides, kTurnDeg, sides_of, type Teaching } from "./teaching";
 import { Verdict } from "./verdict";
 
 interface Props {
@@ -43,6 +43,7 @@ export function Turntable({ teaching, ready, grab }: Props) {
         {background && (
           <Ring
             yaws={sides_of(session!)}
+            idle={idle_sides(session!)}
             reach_deg={kTurnDeg / 2}
             chosen={teaching.yaw.value ?? 0}
             on_choose={(yaw) => (teaching.yaw.value = yaw)}

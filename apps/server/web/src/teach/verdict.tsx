@@ -1,5 +1,7 @@
 // Is what is seen now good enough? One sentence, in a place that keeps its height.
+import { useMemo } from "preact/hooks";
 import type { Proposal } from "../api/types";
+import { Announcement } from "../ui/announcement";
 import { count, sentence } from "../ui/numbers";
 import type { Teaching } from "./teaching";
 import "./verdict.css";
@@ -12,9 +14,11 @@ interface Props {
 export function Verdict({ teaching, waiting }: Props) {
   const trouble = teaching.trouble.value;
   const [kind, text] = trouble ? ["bad", trouble] : judge(teaching.proposal.value, waiting);
+  const announced = useMemo(() => text, [kind]); // not every number that changes with every look
   return (
-    <div class={`note verdict ${kind}`} role="status">
-      {text}
+    <div>
+      <div class={`note verdict ${kind}`}>{text}</div>
+      <Announcement text={announced!} />
     </div>
   );
 }

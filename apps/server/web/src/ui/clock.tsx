@@ -2,16 +2,15 @@
 import { useEffect, useState } from "preact/hooks";
 import { clock } from "./numbers";
 
-export function Clock({ since }: { since: number | null }) {
+export function Clock({ since }: { since: number }) {
   const [now, set_now] = useState(() => performance.now());
   useEffect(() => {
-    if (since == null) return;
     const timer = setInterval(() => set_now(performance.now()), 250);
     return () => clearInterval(timer);
   }, [since]);
   return (
     <span class="tag" role="timer" aria-label="Time taken">
-      {clock(since == null ? 0 : now - since)}
+      {clock(now - since)}
     </span>
   );
 }

@@ -137,18 +137,12 @@ TEST_F(CameraTest, FramesAreNumberedAndStateIsTold) {
 /// A camera's driver that does as it is told.
 class Driver {
  public:
-  enum Mode { gives, fails, hangs };
+  enum Mode { gives, fails, hangs, one_hangs };
 
   void be(Mode mode) {
     const std::lock_guard lock(mutex_);
     mode_ = mode;
     told_.notify_all();
-  }
-  /// Whoever hangs does so for good; the next ones get this.
-  void forsake_those_who_hang(Mode mode) {
-    const std::lock_guard lock(mutex_);
-    ++age_;
-    mode_ = mode;
   }
   void release() {
     const std::lock_guard lock(mutex_);
@@ -160,34 +154,33 @@ class Driver {
     return hanging_;
   }
 
-  void work(int age) {
+  /// With `one_hangs` the next one hangs for good, and all others get frames.
+  void work() {
     std::unique_lock lock(mutex_);
+    const bool for_good = mode_ == one_hangs;
+    if (for_good) mode_ = gives;
     ++hanging_;
-    told_.wait(lock, [&] { return released_ || (age == age_ && mode_ != hangs); });
+    told_.wait(lock, [&] { return released_ || (!for_good && mode_ != hangs); });
     --hanging_;
     if (released_ || mode_ == fails) throw Error(ErrorCode::io, "the cable is loose");
-  }
-  int age() const {
-    const std::lock_guard lock(mutex_);
-    return age_;
   }
 
  private:
   mutable std::mutex mutex_;
   std::condition_variable told_;
   Mode mode_ = gives;
-  int age_ = 0, hanging_ = 0;
+  int hanging_ = 0;
   bool released_ = false;
 };
 
 class DrivenSource : public FrameSource {
  public:
   explicit DrivenSource(std::shared_ptr<Driver> driver) : driver_(std::move(driver)) {
-    driver_->work(age_ = driver_->age());
+    driver_->work();
   }
   std::optional<Frame> next() override {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));  // its rate
-    driver_->work(age_);
+    driver_->work();
     Frame frame;
     frame.image = cv::Mat(3, 4, CV_8UC3, cv::Scalar::all(9));
     frame.number = number_ += 2;
@@ -197,7 +190,6 @@ class DrivenSource : public FrameSource {
 
  private:
   std::shared_ptr<Driver> driver_;
-  int age_;
   std::int64_t number_ = -1;
 };
 
@@ -250,11 +242,10 @@ TEST_F(DrivenCamera, ItHangsAndComesBack) {
 
 TEST_F(DrivenCamera, AnotherAttemptDoesNotWaitForTheOneThatHangs) {
   ASSERT_TRUE(becomes(CameraState::running));
-  driver_->be(Driver::hangs);
-  ASSERT_TRUE(until([&] { return driver_->hanging() == 1; }));
-  driver_->forsake_those_who_hang(Driver::gives);
+  driver_->be(Driver::one_hangs);
   ASSERT_TRUE(becomes(CameraState::lost));
   EXPECT_TRUE(becomes(CameraState::running));
+  EXPECT_EQ(driver_->hanging(), 1);
 }
 
 TEST_F(DrivenCamera, AnotherSourceDoesNotWaitForTheOneThatHangs) {

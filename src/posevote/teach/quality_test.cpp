@@ -94,6 +94,16 @@ TEST(AssessView, SeesThatAViewIsKnownAlready) {
   EXPECT_LT(assess_view(view, {other}, sift()).redundancy, 0.3);
 }
 
+TEST(AssessView, TakesTheHalfFloatsOfLoadedViews) {
+  const View view = taught(rich());
+  View loaded = view;
+  loaded.features.descriptors = cv::Mat();
+  view.features.descriptors.convertTo(loaded.features.descriptors, CV_16F);
+  const ViewQuality quality = assess_view(loaded, {std::make_shared<View>(loaded)}, sift());
+  EXPECT_EQ(quality.smallest_size_px, assess_view(view, {}, sift()).smallest_size_px);
+  EXPECT_GT(quality.redundancy, 0.9);
+}
+
 TEST(AssessView, SkipsItselfAndViewsOfOtherFeatures) {
   const auto view = std::make_shared<View>(taught(rich()));
   auto strange = std::make_shared<View>(*view);

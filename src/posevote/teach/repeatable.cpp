@@ -27,8 +27,9 @@ std::vector<float> find_likenesses(const Features& features, const ShortenedFeat
   std::vector<float> found(features.size(), std::numeric_limits<float>::infinity());
   if (features.empty() || shortened.features.empty()) return found;
   const double fx = shortened.fx, fy = shortened.fy;
-  cv::Mat distance, nearest;
-  cv::batchDistance(features.descriptors, shortened.features.descriptors, distance, CV_32F, nearest,
+  cv::Mat rows, distance, nearest;
+  features.descriptors.convertTo(rows, CV_32F);  // of a loaded view they are half floats
+  cv::batchDistance(rows, shortened.features.descriptors, distance, CV_32F, nearest,
                     cv::NORM_L2, 1);
   for (std::size_t i = 0; i < features.size(); ++i) {
     Keypoint expected = features.keypoints[i];

@@ -155,7 +155,11 @@ export class Studio {
       form.set("picture", new Blob([picture(`train/${name}/${view}.jpg`)]), "view.jpg");
       if (view !== "cover") form.set("background", new Blob([picture(`train/${name}/background.jpg`)]), "empty.jpg");
       const yaw = view.startsWith("y") ? `?yaw=${Number(view.slice(1))}` : "";
-      const response = await fetch(`${this.address}/api/objects/${name}/views${yaw}`, { method: "POST", body: form });
+      // Node 18 ends a form without the line break that the server's parser waits for.
+      const encoded = new Response(form);
+      const body = new Blob([await encoded.arrayBuffer(), "\r\n"]);
+      const headers = { "Content-Type": encoded.headers.get("Content-Type")! };
+      const response = await fetch(`${this.address}/api/objects/${name}/views${yaw}`, { method: "POST", body, headers });
       if (!response.ok) throw new Error(`${name} ${view}: ${await response.text()}`);
     }
   }

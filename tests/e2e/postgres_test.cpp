@@ -118,7 +118,7 @@ TEST_F(SharedDatabase, ARunningRecogniserLearnsWithoutMissingAFrame) {
   for (const std::string& database : {database(), address_}) {
     ASSERT_EQ(
         run({"teach", "soup", demo("train/soup/y000.jpg"), "--whole", "--db", database}).status, 0);
-    const std::string out = path("lines.jsonl");
+    const std::string out = path(database == address_ ? "server.jsonl" : "file.jsonl");
     const pid_t child = start({"recognize", path("clip.avi"), "--json", "--db", database}, out);
     const auto shows = [&](const std::string& word) {
       return content(out).find(word) != std::string::npos;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "command.hpp"
 #include "database.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 struct ServeArguments {
   std::string database, listen = "127.0.0.1:8080", token_file, folder, preset = "default", features;
+  std::optional<std::string> tls_cert, tls_key;
   std::vector<std::string> cameras, hosts, settings;
   double fps = 5;
 };
@@ -102,13 +104,17 @@ void run(const ServeArguments& arguments) {
                 "whoever reaches " + address.host +
                     " could do everything; protect it with a token: --token-file FILE, or the "
                     "environment variable POSEVOTE_TOKEN");
+  std::unique_ptr<const server::Certificate> certificate;
+  if (arguments.tls_cert)
+    certificate = std::make_unique<server::Certificate>(*arguments.tls_cert, *arguments.tls_key);
+  const bool https = config.access.https = certificate != nullptr;
   const sigset_t signals = hold_signals();
   const std::string place = config.store->location();
   server::Server server(std::move(config));
-  const int port = server.start(address.host, address.port);
+  const int port = server.start(address.host, address.port, std::move(certificate));
   const bool v6 = address.host.find(':') != std::string::npos;
-  std::cout << "http://" << (v6 ? "[" + address.host + "]" : address.host) << ':' << port
-            << "/ serves " << place << "; Ctrl-C ends it" << std::endl;
+  std::cout << (https ? "https://" : "http://") << (v6 ? "[" + address.host + "]" : address.host)
+            << ':' << port << "/ serves " << place << "; Ctrl-C ends it" << std::endl;
   int signal = 0;
   sigwait(&signals, &signal);
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);  // who cannot wait asks twice
@@ -150,6 +156,18 @@ void add_serve(CLI::App& app, CommandContext&) {
           "--token-file", a.token_file,
           "Demand the token in the first line of FILE; default: $POSEVOTE_TOKEN, else none")
       ->type_name("FILE");
+  CLI::Option* certificate =
+      command
+          ->add_option("--tls-cert", a.tls_cert,
+                       "Serve https with the certificate in FILE (PEM), as browsers demand it for "
+                       "a phone's camera; see docs/server.md")
+          ->type_name("FILE");
+  CLI::Option* key =
+      command
+          ->add_option("--tls-key", a.tls_key, "The certificate's private key, without passphrase")
+          ->type_name("FILE");
+  certificate->needs(key);
+  key->needs(certificate);
   command
       ->add_option("--state", a.folder,
                    "Where settings, teach sessions in hand and deletions are kept; default: beside "

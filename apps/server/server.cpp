@@ -70,8 +70,9 @@ Response Server::answer(Request& request) {
   return route.handler(request);
 }
 
-int Server::start(const std::string& host, int port) {
-  return http_.start(host, port);
+int Server::start(const std::string& host, int port,
+                  std::unique_ptr<const Certificate> certificate) {
+  return http_.start(host, port, std::move(certificate));
 }
 
 void Server::stop() {

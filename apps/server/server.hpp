@@ -16,7 +16,8 @@ class Server {
   ~Server();
 
   /// See HttpServer::start.
-  int start(const std::string& host, int port);
+  int start(const std::string& host, int port,
+            std::unique_ptr<const Certificate> certificate = nullptr);
   /// Answers what is in hand, then ends.
   void stop();
 

@@ -38,6 +38,8 @@ ServerProcess::ServerProcess(const std::string& folder, const std::vector<std::s
   for (const auto& [option, value] : defaults)
     if (std::ranges::find(arguments, option) == arguments.end())
       words.insert(words.end(), {option, value});
+  const auto tls = std::ranges::find(arguments, "--tls-cert");
+  if (tls != arguments.end() && tls + 1 != arguments.end()) certificate_ = tls[1];
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -54,9 +56,11 @@ ServerProcess::ServerProcess(const std::string& folder, const std::vector<std::s
   }
   const bool begun = eventually([&] {
     const std::string said = read_all(out);
-    const std::string before = "http://127.0.0.1:";
-    if (said.starts_with(before) && said.ends_with('\n'))
-      port_ = std::stoi(said.substr(before.size()));
+    const std::size_t host = said.find("://127.0.0.1:"), end = said.find("/ serves");
+    if (host != std::string::npos && end != std::string::npos) {
+      address_ = said.substr(0, end);
+      port_ = std::stoi(address_.substr(address_.rfind(':') + 1));
+    }
     return port_ != 0 || waitpid(pid_, nullptr, WNOHANG) != 0;
   });
   if (!begun || port_ == 0) throw std::runtime_error("the server does not begin: " + read_all(err));
@@ -69,7 +73,8 @@ ServerProcess::~ServerProcess() {
 }
 
 httplib::Client ServerProcess::client() const {
-  httplib::Client client("127.0.0.1", port_);
+  httplib::Client client(address_);
+  if (!certificate_.empty()) client.set_ca_cert_path(certificate_.c_str());
   client.set_read_timeout(kPatience);
   client.set_connection_timeout(kPatience);
   client.set_keep_alive(true);

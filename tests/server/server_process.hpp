@@ -41,8 +41,10 @@ class ServerProcess {
   ServerProcess(const ServerProcess&) = delete;
   ServerProcess& operator=(const ServerProcess&) = delete;
 
+  [[nodiscard]] const std::string& address() const { return address_; }  ///< without the last /
   [[nodiscard]] int port() const { return port_; }
   [[nodiscard]] int pid() const { return pid_; }
+  /// Trusts the certificate given by --tls-cert.
   [[nodiscard]] httplib::Client client() const;
   void send_signal(int signal) const;
   /// The exit status, or minus the signal that ended it.
@@ -51,6 +53,7 @@ class ServerProcess {
  private:
   int pid_ = -1;
   int port_ = 0;
+  std::string address_, certificate_;
 };
 
 /// A test with a folder of its own.

@@ -97,9 +97,9 @@ void add_server_routes(Router& router, Studio& studio) {
   });
   add("POST", "/api/login", Entry::open,
       [](Request& request, Studio& s) { return login(request, s); });
-  add("POST", "/api/logout", Entry::open, [](Request&, Studio&) {
+  add("POST", "/api/logout", Entry::open, [](Request&, Studio& s) {
     Response response = no_content();
-    response.headers.emplace("Set-Cookie", AccessControl::logout());
+    response.headers.emplace("Set-Cookie", s.access.logout());
     return response;
   });
   add("GET", "/api/settings", Entry::protected_,

@@ -99,9 +99,7 @@ void AccessControl::check_origin(const Request& request) const {
   if (request.method == "GET") return;
   const std::string origin = lower(request.header("Origin"));
   const std::string site = lower(request.header("Sec-Fetch-Site"));
-  const std::size_t slashes = origin.find("://");
-  const bool same =
-      !origin.empty() && slashes != std::string::npos && origin.substr(slashes + 3) == host;
+  const bool same = origin == "https://" + host || (!options_.https && origin == "http://" + host);
   if ((!origin.empty() && !same) || (!site.empty() && site != "same-origin" && site != "none"))
     throw forbid("the request comes from another site");
 }
@@ -133,11 +131,16 @@ std::string AccessControl::login(const std::string& token) {
     count_failure();
     throw Problem(401, "unauthorized", "this is not the token");
   }
-  return kCookie + cookie_ + "; Path=/; Max-Age=2592000; HttpOnly; SameSite=Strict";
+  return set_cookie(cookie_, 30 * 24 * 3600);
 }
 
-std::string AccessControl::logout() {
-  return std::string(kCookie) + "; Path=/; Max-Age=0; HttpOnly; SameSite=Strict";
+std::string AccessControl::logout() const {
+  return set_cookie("", 0);
+}
+
+std::string AccessControl::set_cookie(const std::string& value, int seconds) const {
+  return kCookie + value + "; Path=/; Max-Age=" + std::to_string(seconds) +
+         "; HttpOnly; SameSite=Strict" + (options_.https ? "; Secure" : "");
 }
 
 }  // namespace posevote::server

@@ -14,6 +14,7 @@ struct AccessOptions {
   std::string token;               ///< empty: none is needed
   bool any_host = false;           ///< serve under any host name: when a token protects
   std::vector<std::string> hosts;  ///< host names, without port, beside loopback's
+  bool https = false;              ///< browsers reach the server by https:// only
 };
 
 /// Safe for many threads.
@@ -34,10 +35,11 @@ class AccessControl {
   /// The Set-Cookie header for whoever knows the token. Throws Problem 401, and 429 after ten wrong
   /// ones within a minute.
   [[nodiscard]] std::string login(const std::string& token);
-  [[nodiscard]] static std::string logout();
+  [[nodiscard]] std::string logout() const;
 
  private:
   void count_failure();
+  [[nodiscard]] std::string set_cookie(const std::string& value, int seconds) const;
 
   AccessOptions options_;
   std::string cookie_;  ///< its value; derived from the token, so that it survives a restart

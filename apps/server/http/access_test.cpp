@@ -66,6 +66,21 @@ TEST(Access, CookiesOfTheTokenOnly) {
   EXPECT_FALSE(access.authenticated(made_request("GET", {})));
 }
 
+TEST(Access, OverHttpsOnlyItsOwnPagesAndSecureCookies) {
+  AccessControl open({"", true, {}}), encrypted({"", true, {}, true});
+  const auto post = [](const AccessControl& access, const std::string& origin) {
+    return allows(access, made_request("POST", {{"Host", "robot"}, {"Origin", origin}}));
+  };
+  EXPECT_TRUE(post(encrypted, "https://robot"));
+  EXPECT_FALSE(post(encrypted, "http://robot"));
+  EXPECT_TRUE(post(open, "http://robot"));
+  EXPECT_TRUE(post(open, "https://robot")) << "a proxy may encrypt";
+  for (const std::string& line : {encrypted.login(""), encrypted.logout()})
+    EXPECT_THAT(line, testing::EndsWith("; Secure"));
+  for (const std::string& line : {open.login(""), open.logout()})
+    EXPECT_THAT(line, testing::Not(testing::HasSubstr("Secure")));
+}
+
 TEST(Access, GuessingIsSlowedDown) {
   AccessControl access({"the token", true, {}});
   for (int i = 0; i < 10; ++i) EXPECT_THROW(static_cast<void>(access.login("x")), Problem);

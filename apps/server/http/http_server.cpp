@@ -1,7 +1,5 @@
 #include "http/http_server.hpp"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <condition_variable>
 #include <cstring>
@@ -139,7 +137,8 @@ class HttpServer::Listener : public httplib::Server {
 
   ~Listener() override { halt(); }
 
-  int start(const std::string& host, int port) {
+  int start(const std::string& host, int port, std::unique_ptr<const Certificate> certificate) {
+    certificate_ = std::move(certificate);
     errno = 0;
     const int bound = port == 0 ? bind_to_any_port(host) : (bind_to_port(host, port) ? port : -1);
     if (bound <= 0)
@@ -159,36 +158,41 @@ class HttpServer::Listener : public httplib::Server {
 
  private:
   bool process_and_close_socket(socket_t socket) override {
-    SocketStream stream(socket, limits_, stopping_);
     if (turning_away) {
-      turn_away(socket);
-    } else {
-      while (!stopping_ && stream.wait_for_request()) {
-        Exchange now{stream, stopping_};
-        exchange = &now;
-        bool closed = false;
-        const bool answered = process_request(stream, false, closed,
-                                              [&](httplib::Request& request) { prepare(request); });
-        exchange = nullptr;
-        if (now.body_pending || !now.understood) {
-          stream.linger();
-          break;
-        }
-        if (!answered || closed) break;
-      }
+      const SocketStream closes(socket, limits_, stopping_, nullptr);
+      if (!certificate_)  // a handshake would hold others up
+        answer_plainly(socket, {503, "busy", "there are too many connections; try again later"});
+      return true;
     }
-    shutdown(socket, SHUT_RDWR);
-    close(socket);
+    SocketStream stream(socket, limits_, stopping_, certificate_.get());
+    while (!stopping_ && stream.wait_for_request()) {
+      Exchange now{stream, stopping_};
+      exchange = &now;
+      bool closed = false;
+      const bool answered = process_request(stream, false, closed,
+                                            [&](httplib::Request& request) { prepare(request); });
+      exchange = nullptr;
+      if (now.body_pending || !now.understood) {
+        stream.linger();
+        break;
+      }
+      if (!answered || closed) break;
+    }
+    if (stream.met_plain_http()) {
+      answer_plainly(socket, invalid("this server speaks HTTPS only; open https:// instead"));
+      stream.linger();
+    }
     return true;
   }
 
-  static void turn_away(socket_t socket) {
-    const std::string body =
-        problem_json({503, "busy", "there are too many connections; try again later"});
-    const std::string text =
-        "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/json\r\nConnection: close"
-        "\r\nRetry-After: 5\r\nContent-Length: " +
-        std::to_string(body.size()) + "\r\n\r\n" + body;
+  /// Without the library, at once or not at all.
+  static void answer_plainly(socket_t socket, const Problem& problem) {
+    const std::string body = problem_json(problem);
+    const std::string text = "HTTP/1.1 " + std::to_string(problem.status()) +
+                             " Refused\r\nContent-Type: application/json\r\nConnection: close" +
+                             (problem.status() == 503 ? "\r\nRetry-After: 5" : "") +
+                             "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
+                             body;
     send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   }
 
@@ -311,6 +315,7 @@ class HttpServer::Listener : public httplib::Server {
 
   const Limits limits_;
   RequestHandler handler_;
+  std::unique_ptr<const Certificate> certificate_;
   BodyBudget budget_;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
@@ -321,8 +326,9 @@ HttpServer::HttpServer(const Limits& limits, RequestHandler handler)
 
 HttpServer::~HttpServer() = default;
 
-int HttpServer::start(const std::string& host, int port) {
-  return listener_->start(host, port);
+int HttpServer::start(const std::string& host, int port,
+                      std::unique_ptr<const Certificate> certificate) {
+  return listener_->start(host, port, std::move(certificate));
 }
 
 void HttpServer::stop() {

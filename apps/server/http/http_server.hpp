@@ -7,6 +7,7 @@
 
 #include "http/limits.hpp"
 #include "http/message.hpp"
+#include "http/tls.hpp"
 
 namespace posevote::server {
 
@@ -19,8 +20,10 @@ class HttpServer {
   ~HttpServer();  ///< stops
 
   /// Binds and begins to serve in threads of its own; port 0 takes any free one. Returns the port.
-  /// Throws Error{io} with the reason when the address cannot be used.
-  int start(const std::string& host, int port);
+  /// With a certificate HTTPS only. Throws Error{io} with the reason when the address cannot be
+  /// used.
+  int start(const std::string& host, int port,
+            std::unique_ptr<const Certificate> certificate = nullptr);
 
   /// No new connections or requests from now on; returns when the requests in hand are answered.
   void stop();

@@ -4,6 +4,7 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -35,10 +36,18 @@ void address_of(const sockaddr_storage& address, std::string& ip, int& port) {
 
 }  // namespace
 
-SocketStream::SocketStream(int socket, const Limits& limits, const std::atomic<bool>& stopping)
+SocketStream::SocketStream(int socket, const Limits& limits, const std::atomic<bool>& stopping,
+                           const Certificate* certificate)
     : socket_(socket), limits_(limits), stopping_(stopping) {
   const int on = 1;
   setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  if (certificate) tls_.emplace(*certificate, socket_);
+}
+
+SocketStream::~SocketStream() {
+  tls_.reset();
+  shutdown(socket_, SHUT_RDWR);
+  close(socket_);
 }
 
 SocketStream::Ready SocketStream::wait(short events, Clock::time_point until) const {
@@ -56,9 +65,10 @@ bool SocketStream::wait_for_request() {
   const auto until = Clock::now() + seconds(limits_.idle_s);
   while (begin_ == end_) {
     if (stopping_ || Clock::now() > until) return false;
-    const Ready ready = wait(POLLIN, std::min(until, Clock::now() + milliseconds(100)));
+    Ready ready = fill();
+    if (ready == Ready::no)
+      ready = wait(wanted(), std::min(until, Clock::now() + milliseconds(100)));
     if (ready == Ready::gone) return false;
-    if (ready == Ready::yes && !fill()) return false;
   }
   deadline_ = Clock::now() + seconds(limits_.request_s);
   head_left_ = kMaxHead;
@@ -72,25 +82,30 @@ void SocketStream::begin_body() {
   in_head_ = false;
 }
 
-bool SocketStream::fill() {
-  const ssize_t got = recv(socket_, buffer_, sizeof buffer_, MSG_DONTWAIT);
-  if (got <= 0) return false;
+short SocketStream::wanted() const {
+  return tls_ ? tls_->wanted() : POLLIN;
+}
+
+/// Tried before any waiting: TLS may have received bytes that the socket does not show any more.
+SocketStream::Ready SocketStream::fill() {
+  const ssize_t got = tls_ ? tls_->receive(buffer_, sizeof buffer_)
+                           : recv(socket_, buffer_, sizeof buffer_, MSG_DONTWAIT);
+  if (got < 0 && errno == EAGAIN) return Ready::no;
+  if (got <= 0) return Ready::gone;
   begin_ = 0;
   end_ = static_cast<std::size_t>(got);
   if (!in_head_) deadline_ += seconds(static_cast<double>(got) / (256 * 1024));
-  return true;
+  return Ready::yes;
 }
 
 ssize_t SocketStream::read(char* data, size_t size) {
-  if (begin_ == end_) {
-    const Ready ready = wait(POLLIN, deadline_);
-    timed_out_ = ready == Ready::no;
-    if (ready != Ready::yes || !fill()) return -1;
-  }
-  // Bytes that come slowly but steadily must not keep a request alive either.
-  if (Clock::now() > deadline_) {
-    timed_out_ = true;
-    return -1;
+  for (;;) {
+    Ready ready = begin_ == end_ ? fill() : Ready::yes;
+    // Bytes that come slowly but steadily must not keep a request alive either.
+    timed_out_ = Clock::now() > deadline_;
+    if (timed_out_ || ready == Ready::gone) return -1;
+    if (ready == Ready::yes) break;
+    if (wait(wanted(), deadline_) == Ready::gone) return -1;
   }
   const std::size_t taken = std::min(size, end_ - begin_);
   if (in_head_) {
@@ -104,9 +119,12 @@ ssize_t SocketStream::read(char* data, size_t size) {
 
 ssize_t SocketStream::write(const char* data, size_t size) {
   if (size == 0) return 0;
-  if (wait(POLLOUT, Clock::now() + seconds(limits_.wait_s)) != Ready::yes) return -1;
-  const ssize_t sent = send(socket_, data, size, MSG_NOSIGNAL | MSG_DONTWAIT);
-  return sent < 0 && errno == EAGAIN ? 0 : sent;
+  while (is_writable()) {
+    const ssize_t sent =
+        tls_ ? tls_->send(data, size) : send(socket_, data, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent >= 0 || errno != EAGAIN) return sent;
+  }
+  return -1;
 }
 
 bool SocketStream::peer_gone() const {
@@ -115,6 +133,7 @@ bool SocketStream::peer_gone() const {
 }
 
 void SocketStream::linger() {
+  tls_.reset();
   shutdown(socket_, SHUT_WR);
   const auto until = Clock::now() + std::chrono::seconds(2);
   while (Clock::now() < until && wait(POLLIN, until) == Ready::yes)

@@ -6,18 +6,24 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 
 #include "http/limits.hpp"
+#include "http/tls.hpp"
 
 namespace posevote::server {
 
 /// Used by the connection's own thread only. A request has three phases: waiting for its first
-/// byte, its head (32 KB at most), its body. Reads fail when a phase takes longer than `Limits`
-/// allow; writes fail when the client takes nothing for `wait_s`.
+/// byte (and for the handshake of TLS), its head (32 KB at most), its body. Reads fail when a phase
+/// takes longer than `Limits` allow; writes fail when the client takes nothing for `wait_s`.
 class SocketStream : public httplib::Stream {
  public:
-  /// Does not own `socket`.
-  SocketStream(int socket, const Limits& limits, const std::atomic<bool>& stopping);
+  /// Closes `socket` in the end. `certificate`: null for plain HTTP.
+  SocketStream(int socket, const Limits& limits, const std::atomic<bool>& stopping,
+               const Certificate* certificate);
+  ~SocketStream() override;
+  SocketStream(const SocketStream&) = delete;
+  SocketStream& operator=(const SocketStream&) = delete;
 
   /// Waits for the first byte of the next request and begins its head. False: the client has left
   /// or is silent, or the server is being stopped.
@@ -31,6 +37,8 @@ class SocketStream : public httplib::Stream {
   void prefer_fresh();
   /// The client has closed its side.
   [[nodiscard]] bool peer_gone() const;
+  /// The client speaks HTTP where HTTPS is needed.
+  [[nodiscard]] bool met_plain_http() const { return tls_ && tls_->met_plain_http(); }
 
   bool is_readable() const override;
   bool is_writable() const override;
@@ -45,11 +53,13 @@ class SocketStream : public httplib::Stream {
 
   enum class Ready { yes, no, gone };
   Ready wait(short events, Clock::time_point until) const;
-  bool fill();
+  Ready fill();
+  [[nodiscard]] short wanted() const;
 
   int socket_;
   const Limits& limits_;
   const std::atomic<bool>& stopping_;
+  std::optional<Tls> tls_;
   Clock::time_point deadline_;
   std::size_t head_left_ = 0;  ///< bytes that the head may still have
   bool in_head_ = true;

@@ -74,7 +74,7 @@ ServerProcess::~ServerProcess() {
 
 httplib::Client ServerProcess::client() const {
   httplib::Client client(address_);
-  if (!certificate_.empty()) client.set_ca_cert_path(certificate_.c_str());
+  if (!certificate_.empty()) client.set_ca_cert_path(certificate_);
   client.set_read_timeout(kPatience);
   client.set_connection_timeout(kPatience);
   client.set_keep_alive(true);

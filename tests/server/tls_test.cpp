@@ -5,8 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
-#include <filesystem>
 #include <fstream>
 
 #include "server_process.hpp"
@@ -14,21 +14,16 @@
 namespace posevote {
 namespace {
 
-namespace fs = std::filesystem;
-
 class TlsTest : public ServerTest {
  protected:
-  void SetUp() override {
-    signal(SIGPIPE, SIG_IGN);  // the client's: the server may close while it writes
-    make_certificate("cert.pem", "key.pem");
-  }
+  void SetUp() override { make_certificate("cert.pem", "key.pem"); }
 
   /// As docs/server.md says.
   void make_certificate(const std::string& certificate, const std::string& key) {
     const std::string command =
-        "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 365 -subj "
-        "/CN=robot -addext "
-        "subjectAltName=DNS:robot.local,IP:127.0.0.1 -addext extendedKeyUsage=serverAuth -keyout " +
+        "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 365"
+        " -subj /CN=robot -addext subjectAltName=DNS:robot.local,IP:127.0.0.1"
+        " -addext extendedKeyUsage=serverAuth -keyout " +
         path(key) + " -out " + path(certificate) + " 2> /dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0) << "is openssl installed?";
   }
@@ -38,6 +33,7 @@ class TlsTest : public ServerTest {
     arguments.insert(arguments.end(),
                      {"--tls-cert", path("cert.pem"), "--tls-key", path("key.pem")});
     start(arguments, environment);
+    signal(SIGPIPE, SIG_IGN);  // not for the server: clients write to what it may have closed
   }
 
   /// A connection that has sent these bytes.
@@ -96,8 +92,8 @@ TEST_F(TlsTest, PageInterfaceAndUploads) {
 }
 
 TEST_F(TlsTest, WhoSendsTooMuchIsToldSo) {
-  start_tls();
-  const std::string body(21'000'000, 'x');
+  start_tls({"--set", "limits.body_mb=1"});
+  const std::string body(5'000'000, 'x');
   EXPECT_TRUE(eventually([&] {  // on a busy machine the connection may end before all is sent
     const auto result = client().Post("/api/recognize", body, "image/png");
     return result && result->status == 413;
@@ -108,7 +104,7 @@ TEST_F(TlsTest, OnlyItsCertificateIsShown) {
   start_tls();
   make_certificate("other.pem", "other_key.pem");
   auto client = this->client();
-  client.set_ca_cert_path(path("other.pem").c_str());
+  client.set_ca_cert_path(path("other.pem"));
   EXPECT_EQ(client.Get("/api/health").error(), httplib::Error::SSLServerVerification);
 }
 
@@ -128,6 +124,7 @@ TEST_F(TlsTest, CookiesAreSecureAndPagesOfHttpAreStrangers) {
 
 TEST_F(TlsTest, FramesAndEventsStreamUntilTerminated) {
   start_tls({"--camera", make_camera("camera", {demo("test/breakfast.jpg")}), "--fps", "20"});
+  client().Get("/api/stream.mjpg", [](const char*, std::size_t) { return false; });  // leaves
   std::atomic<int> watching = 0;
   std::vector<std::thread> watchers;
   for (const std::string what : {"/api/stream.mjpg", "/api/events"})
@@ -153,15 +150,14 @@ TEST_F(TlsTest, FramesAndEventsStreamUntilTerminated) {
 TEST_F(TlsTest, WhoReadsNothingIsGivenUp) {
   start_tls({"--camera", make_camera("camera", {demo("test/breakfast.jpg")}), "--fps", "30",
              "--set", "limits.wait_s=1"});
-  const auto streams_are = [&](const std::string& number) {
+  const auto nobody_watches = [&] {
     return eventually([&] {
-      return client().Get("/metrics")->body.find("\nposevote_streams " + number + "\n") !=
-             std::string::npos;
+      return client().Get("/metrics")->body.find("\nposevote_streams 0\n") != std::string::npos;
     });
   };
   bool given_up = false;
   client().Get("/api/stream.mjpg", [&](const char*, std::size_t) {
-    given_up = given_up || (streams_are("1") && streams_are("0"));
+    given_up = given_up || nobody_watches();
     return true;
   });
   EXPECT_TRUE(given_up);
@@ -199,7 +195,7 @@ TEST_F(TlsTest, PlainHttpIsToldSoAndNonsenseIsClosed) {
   EXPECT_THAT(answer, testing::StartsWith("HTTP/1.1 400 "));
   EXPECT_THAT(answer, testing::HasSubstr("https://"));
   EXPECT_THAT(answer, testing::Not(testing::EndsWith("reset")));
-  rest_of(connection(std::string(100'000, 'x')));
+  rest_of(connection(std::string(1000, 'x')));
   EXPECT_EQ(get("/api/health")["status"], "ok");
 }
 

@@ -139,7 +139,7 @@ NeighborLists find_neighbors_in_time(const Index& index, const Features& scene,
                                      const MatchOptions& options, const std::vector<int>& groups,
                                      bool any_marked, const Deadline& deadline, bool& incomplete) {
   if (!deadline.limited()) return find_neighbors(index, scene, options, groups, any_marked);
-  constexpr std::size_t kAtOnce = 512;
+  constexpr std::size_t kAtOnce = 128;
   NeighborLists result(scene.size(), static_cast<std::size_t>(options.neighbors));
   for (std::size_t first = 0; first < scene.size(); first += kAtOnce) {
     if (deadline.passed(kMatchingEnds)) {

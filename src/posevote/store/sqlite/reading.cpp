@@ -99,9 +99,19 @@ std::vector<ViewSummary> SqliteStore::views(const std::string& object) const {
   });
 }
 
-View SqliteStore::read_view(Statement& row) const {
+struct SqliteStore::ViewReader {
+  Statement view, patch;
+  std::string signature;
+};
+
+View SqliteStore::read_view(Statement& row, const std::string& signature) const {
   return checked_view([&] { return view_of(row); }, row.getColumn("identity").getString(),
-                      meta("signature"), path_);
+                      signature, path_);
+}
+
+SqliteStore::ViewReader SqliteStore::view_reader() const {
+  return {Statement(database_, "SELECT * FROM view WHERE id = ?"),
+          Statement(database_, "SELECT bytes FROM patch WHERE view = ?"), meta("signature")};
 }
 
 TaughtView SqliteStore::view(const std::string& object, const std::string& id) const {
@@ -112,7 +122,7 @@ TaughtView SqliteStore::view(const std::string& object, const std::string& id) c
     if (!row.executeStep())
       fail(ErrorCode::not_found, "holds no view '" + id + "' of object '" + object + "'");
     TaughtView taught;
-    taught.view = read_view(row);
+    taught.view = read_view(row, meta("signature"));
     taught.picture = copy_of(row.getColumn("picture"));
     taught.mask = copy_of(row.getColumn("mask"));
     taught.method = row.getColumn("method").getString();
@@ -122,13 +132,14 @@ TaughtView SqliteStore::view(const std::string& object, const std::string& id) c
   });
 }
 
-std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id,
+std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id, ViewReader& reader,
                                                    const LoadOptions& options) const {
-  Statement row(database_, "SELECT * FROM view WHERE id = ?");
+  auto& [row, patch, signature] = reader;
+  row.reset();
   row.bind(1, id);
   row.executeStep();
-  View view = read_view(row);
-  Statement patch(database_, "SELECT bytes FROM patch WHERE view = ?");
+  View view = read_view(row, signature);
+  patch.reset();
   patch.bind(1, id);
   const BlobView stored = patch.executeStep() ? blob_of(patch.getColumn(0)) : BlobView();
   const auto fetch = [&] {
@@ -140,6 +151,7 @@ std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id,
 }
 
 std::vector<std::shared_ptr<const View>> SqliteStore::load_views(std::int64_t object,
+                                                                 ViewReader& reader,
                                                                  const LoadOptions& options) const {
   std::vector<std::shared_ptr<const View>> views;
   Statement row(database_, "SELECT id, number, hash FROM view WHERE object = ? ORDER BY number");
@@ -148,13 +160,16 @@ std::vector<std::shared_ptr<const View>> SqliteStore::load_views(std::int64_t ob
     const std::string key = row.getColumn(2).getString() + '/' + row.getColumn(1).getString() +
                             (options.pictures ? " with pictures" : "");
     views.push_back(
-        cache_.get(key, [&] { return load_view(row.getColumn(0).getInt64(), options); }));
+        cache_.get(key, [&] { return load_view(row.getColumn(0).getInt64(), reader, options); }));
   }
   return views;
 }
 
 ObjectModel SqliteStore::load_object(const std::string& name, const LoadOptions& options) const {
-  return reading([&] { return ObjectModel{name, load_views(object_id(name), options)}; });
+  return reading([&] {
+    ViewReader reader = view_reader();
+    return ObjectModel{name, load_views(object_id(name), reader, options)};
+  });
 }
 
 std::shared_ptr<const ModelSet> SqliteStore::load(const LoadOptions& options) const {
@@ -163,10 +178,11 @@ std::shared_ptr<const ModelSet> SqliteStore::load(const LoadOptions& options) co
     const auto features = recorded_features();
     if (!features) return std::make_shared<const ModelSet>();
     std::vector<ObjectModel> objects;
+    ViewReader reader = view_reader();
     Statement object(database_, "SELECT id, name FROM object ORDER BY name");
     while (object.executeStep())
-      objects.push_back(
-          {object.getColumn(1).getString(), load_views(object.getColumn(0).getInt64(), options)});
+      objects.push_back({object.getColumn(1).getString(),
+                         load_views(object.getColumn(0).getInt64(), reader, options)});
     std::vector<Features> impostors;
     Statement row(database_, "SELECT keypoints, descriptors, dimension FROM impostor ORDER BY id");
     while (row.executeStep()) impostors.push_back(features_of(row));

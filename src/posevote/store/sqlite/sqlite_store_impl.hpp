@@ -68,10 +68,13 @@ class SqliteStore : public ObjectStore {
   void require_features(const FeatureRecord& features);
   void record(const FeatureRecord& features);
 
-  View read_view(SQLite::Statement& row) const;
+  struct ViewReader;  ///< what reading many views needs, prepared once
+  ViewReader view_reader() const;
+  View read_view(SQLite::Statement& row, const std::string& signature) const;
   void keep_patch(std::int64_t view, const Blob& patch);
-  std::shared_ptr<const View> load_view(std::int64_t row, const LoadOptions& options) const;
-  std::vector<std::shared_ptr<const View>> load_views(std::int64_t object,
+  std::shared_ptr<const View> load_view(std::int64_t row, ViewReader& reader,
+                                        const LoadOptions& options) const;
+  std::vector<std::shared_ptr<const View>> load_views(std::int64_t object, ViewReader& reader,
                                                       const LoadOptions& options) const;
   std::string insert_view(std::int64_t object, const TaughtView& view, const std::string& identity,
                           const std::string& signature);

@@ -47,7 +47,7 @@ bool is_repeated(const PoseCluster& cluster, std::vector<char>& seen) {
 
 // Shares of the time budget after which no more features are matched and no more hypotheses
 // verified: the one in hand and the competition that follows need the rest.
-constexpr double kMatchingEnds = 0.6, kVerifyingEnds = 0.85;
+constexpr double kMatchingEnds = 0.6, kVerifyingEnds = 0.8;
 
 std::vector<const PoseCluster*> choose_clusters(const std::vector<PoseCluster>& clusters,
                                                 std::size_t matches, int most) {
@@ -139,7 +139,7 @@ NeighborLists find_neighbors_in_time(const Index& index, const Features& scene,
                                      const MatchOptions& options, const std::vector<int>& groups,
                                      bool any_marked, const Deadline& deadline, bool& incomplete) {
   if (!deadline.limited()) return find_neighbors(index, scene, options, groups, any_marked);
-  constexpr std::size_t kAtOnce = 128;
+  constexpr std::size_t kAtOnce = 64;
   NeighborLists result(scene.size(), static_cast<std::size_t>(options.neighbors));
   for (std::size_t first = 0; first < scene.size(); first += kAtOnce) {
     if (deadline.passed(kMatchingEnds)) {

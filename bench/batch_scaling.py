@@ -79,6 +79,7 @@ def batch_rate(database, pictures, workers, scratch):
 
 
 def main(database, folder, *workers):
+    os.environ["OPENCV_FOR_THREADS_NUM"] = "1"  # a process is one core, as it is in a batch
     pictures = sorted(str(Path(folder, name).absolute()) for name in os.listdir(folder))
     database = str(Path(database).absolute())
     base = None

@@ -141,6 +141,8 @@ def open_client(scheduler, workers):
             return Client(scheduler, timeout="30s"), None
         except (OSError, TimeoutError, ValueError) as error:
             raise posevote.IoError(f"no scheduler answers at '{scheduler}': {error}") from None
+    # OpenCV's own threads would work on the cores of the other workers.
+    os.environ.setdefault("OPENCV_FOR_THREADS_NUM", "1")
     # A process for each core: a picture that kills its worker kills nobody else's work. Of a worker
     # that dies twice nothing would be learned; a busy machine may take long to start one.
     dask.config.set(

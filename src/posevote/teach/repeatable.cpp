@@ -29,8 +29,8 @@ std::vector<float> find_likenesses(const Features& features, const ShortenedFeat
   const double fx = shortened.fx, fy = shortened.fy;
   cv::Mat rows, distance, nearest;
   features.descriptors.convertTo(rows, CV_32F);  // of a loaded view they are half floats
-  cv::batchDistance(rows, shortened.features.descriptors, distance, CV_32F, nearest,
-                    cv::NORM_L2, 1);
+  cv::batchDistance(rows, shortened.features.descriptors, distance, CV_32F, nearest, cv::NORM_L2,
+                    1);
   for (std::size_t i = 0; i < features.size(); ++i) {
     Keypoint expected = features.keypoints[i];
     expected.x = static_cast<float>((expected.x + 0.5) * fx - 0.5);

@@ -89,7 +89,8 @@ class TeachCameraTest(unittest.TestCase):
         self.camera.show("train/poster/cover.jpg")
         self.client.send_goal(TeachGoal(object="poster", method="whole", manual=True),
                               feedback_cb=lambda f: steps.append(f.step))
-        self.assertTrue(demo.wait_until(lambda: "object" in steps))
+        demo.wait_until(lambda: steps)
+        self.assertEqual(steps, ["object"])
         self.assertTrue(capture().success)
         self.assertTrue(self.client.wait_for_result(rospy.Duration(60)))
         self.assertTrue(self.client.get_result().success)

@@ -1,5 +1,4 @@
 // Who may do what; what a hostile client can send.
-#include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -19,12 +18,7 @@ class AccessTest : public ServerTest {
  protected:
   /// Bytes as they are, and what comes back until the server closes.
   std::string raw(const std::string& request) {
-    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    const int socket = open_socket();
     send(socket, request.data(), request.size(), MSG_NOSIGNAL);
     std::string answer;
     char buffer[4096];

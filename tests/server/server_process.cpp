@@ -1,7 +1,9 @@
 #include "server_process.hpp"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -108,6 +110,16 @@ void ServerTest::start(const std::vector<std::string>& arguments,
                        const std::map<std::string, std::string>& environment) {
   server_.reset();
   server_ = std::make_unique<ServerProcess>(folder_, arguments, environment);
+}
+
+int ServerTest::open_socket() const {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  return socket;
 }
 
 Json ServerTest::get(const std::string& path) {

@@ -65,6 +65,8 @@ class ServerTest : public testing::Test {
   void start(const std::vector<std::string>& arguments = {},
              const std::map<std::string, std::string>& environment = {});
   [[nodiscard]] httplib::Client client() const { return server_->client(); }
+  /// A connection to the server, for bytes as they are; to be closed.
+  [[nodiscard]] int open_socket() const;
 
   /// Requests that must succeed; the body as JSON.
   Json get(const std::string& path);

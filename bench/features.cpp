@@ -1,4 +1,4 @@
-// bench_features [FOLDER] [--rounds N] [--picture FILE]
+// bench_features [FOLDER] [--rounds N] [--picture FILE] [--threads-only]
 //
 // Time of our SURF against OpenCV's ORB and dlib's SURF at the same number of key points, in one
 // process and in turns, so that all suffer alike from whatever else the machine does. The pictures
@@ -9,6 +9,9 @@
 // write (each once from a sequential stream: the least that any method needs). Before everything
 // else the machine's memory bandwidth and our peak memory at 8 megapixels. The rows "default" are
 // what recognition does with a picture of that size, the picture doubled where it is small.
+//
+// A second table compares two threads for one picture with one thread, and with what two threads
+// that do not know of each other get done, a picture each: that is what the machine gives to two.
 #include <dlib/image_keypoint.h>
 #include <dlib/opencv.h>
 #include <sys/resource.h>
@@ -20,10 +23,12 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <latch>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <thread>
 
 #include "posevote/feature/surf/surf.hpp"
 
@@ -133,27 +138,23 @@ struct Case {
 void compare(const cv::Mat& picture, const Case& of, double bandwidth, int rounds) {
   const auto& options = of.options;
   const int count = options.max_features;
-  auto two = options;
-  two.surf.threads = 2;
-  Workspace one_workspace, two_workspace;
+  Workspace workspace;
   const auto orb = cv::ORB::create(count);
-  Series ours, pair, orbs, dlibs;
+  Series ours, orbs, dlibs;
   std::vector<StageTimes> stages;
   std::size_t found = 0, orb_found = 0, dlib_found = 0;
   for (int round = -1; round < rounds; ++round) {  // the first one fills caches and buffers
-    const auto a = time_of([&] { found = one_workspace.extract(picture, {}, options).size(); });
+    const auto a = time_of([&] { found = workspace.extract(picture, {}, options).size(); });
     const auto b = time_of([&] {
       std::vector<cv::KeyPoint> points;
       cv::Mat rows;
       orb->detectAndCompute(picture, {}, points, rows);
       orb_found = points.size();
     });
-    const auto c = time_of([&] { (void)two_workspace.extract(picture, {}, two); });
     if (round < 0) continue;
     ours.add(a);
     orbs.add(b);
-    pair.add(c);
-    stages.push_back(one_workspace.times());
+    stages.push_back(workspace.times());
     if (round % 4 == 0)  // many times slower than the others
       dlibs.add(time_of([&] {
         dlib_found =
@@ -172,13 +173,13 @@ void compare(const cv::Mat& picture, const Case& of, double bandwidth, int round
   const double orientation = stage(&StageTimes::orientation);
   const double descriptor = stage(&StageTimes::descriptor);
   std::printf(
-      "%4dx%-4d %-7s %5zu/%5zu/%5zu | %7.2f %7.2f %8.2f %7.2f | %5.2f (%4.2f)  %5.1f (%4.1f)  %4.2f"
+      "%4dx%-4d %-7s %5zu/%5zu/%5zu | %7.2f %7.2f %8.2f | %5.2f (%4.2f)  %5.1f (%4.1f)"
       " | %5.2f %6.2f %5.2f %5.2f %5.2f",
       picture.cols, picture.rows, of.name.c_str(), found, orb_found, dlib_found, median(ours.wall),
-      median(orbs.wall), median(dlibs.wall), median(pair.wall), ratio(ours.wall, orbs.wall),
+      median(orbs.wall), median(dlibs.wall), ratio(ours.wall, orbs.wall),
       ratio(ours.processor, orbs.processor), ratio(dlibs.wall, every_fourth.wall),
-      ratio(dlibs.processor, every_fourth.processor), ratio(ours.wall, pair.wall), integral,
-      hessian, stage(&StageTimes::suppression), orientation, descriptor);
+      ratio(dlibs.processor, every_fourth.processor), integral, hessian,
+      stage(&StageTimes::suppression), orientation, descriptor);
   const double pixels = static_cast<double>(picture.total()) * (options.surf.double_size ? 4 : 1);
   const Traffic bytes = traffic_of(pixels, static_cast<double>(found));
   const auto times_of_memory = [&](double ms, double moved) {
@@ -188,6 +189,48 @@ void compare(const cv::Mat& picture, const Case& of, double bandwidth, int round
               times_of_memory(hessian, bytes.hessian),
               times_of_memory(orientation, bytes.orientation),
               times_of_memory(descriptor, bytes.descriptor));
+  std::fflush(stdout);
+}
+
+// In turns: one thread, two threads, and two pictures at once with a thread each.
+void compare_threads(const cv::Mat& picture, const Case& of, int rounds) {
+  auto two = of.options;
+  two.surf.threads = 2;
+  Workspace single, shared, other;
+  Series ones, twos, pairs;
+  std::vector<StageTimes> one_stages, two_stages;
+  for (int round = -1; round < rounds; ++round) {
+    const auto one = time_of([&] { (void)single.extract(picture, {}, of.options); });
+    const StageTimes one_times = single.times();
+    const auto both = time_of([&] { (void)shared.extract(picture, {}, two); });
+    std::latch awake(2);
+    std::thread beside([&] {
+      awake.arrive_and_wait();
+      (void)other.extract(picture, {}, of.options);
+    });
+    awake.arrive_and_wait();
+    const auto pair = time_of([&] {
+      (void)single.extract(picture, {}, of.options);
+      beside.join();
+    });
+    if (round < 0) continue;
+    ones.add(one);
+    twos.add(both);
+    pairs.add(pair);
+    one_stages.push_back(one_times);
+    two_stages.push_back(shared.times());
+  }
+  std::printf("%4dx%-4d %-7s %6d | %7.2f %7.2f %7.2f | %4.2f %4.2f |", picture.cols, picture.rows,
+              of.name.c_str(), of.options.max_features, median(ones.wall), median(twos.wall),
+              median(pairs.wall), ratio(ones.wall, twos.wall), 2 * ratio(ones.wall, pairs.wall));
+  for (const auto field : {&StageTimes::integral, &StageTimes::hessian, &StageTimes::suppression,
+                           &StageTimes::orientation, &StageTimes::descriptor}) {
+    Series one, shared_by_two;
+    for (const StageTimes& times : one_stages) one.wall.push_back(times.*field);
+    for (const StageTimes& times : two_stages) shared_by_two.wall.push_back(times.*field);
+    std::printf(" %4.2f", ratio(one.wall, shared_by_two.wall));
+  }
+  std::printf("\n");
   std::fflush(stdout);
 }
 
@@ -203,7 +246,21 @@ void print_memory(const cv::Mat& picture) {
               picture.cols, picture.rows, used, used / floats);
 }
 
-void run(const std::filesystem::path& folder, const std::string& file, int rounds) {
+std::vector<Case> cases_of(cv::Size size) {
+  std::vector<Case> cases;
+  for (const int count : {500, 1000, 2000, 5000}) {
+    cases.push_back({"", {}});
+    cases.back().options.max_features = count;
+  }
+  if (size.area() < cases[0].options.double_below_px) {
+    cases.push_back({"default", {}});
+    cases.back().options.surf.double_size = true;
+  }
+  return cases;
+}
+
+void run(const std::filesystem::path& folder, const std::string& file, int rounds,
+         bool threads_only) {
   cv::setNumThreads(1);
   const auto picture_of = [&](cv::Size size) {
     if (file.empty()) return mosaic(folder, size);
@@ -213,28 +270,28 @@ void run(const std::filesystem::path& folder, const std::string& file, int round
     return picture;
   };
   const cv::Size sizes[] = {{640, 480}, {1920, 1080}, {3264, 2448}};
-  print_memory(picture_of(sizes[2]));
-  const double bandwidth = bandwidth_gb();
-  std::printf("memory bandwidth (copy, read + written): %.1f GB/s\n\n", bandwidth);
-  std::printf(
-      "ms, medians of %d turns; ratios: medians of the turns', in brackets of processor time\n"
-      "%-17s %-17s | %7s %7s %8s %7s | %12s  %13s  %4s | %s | times of the memory's\n",
-      rounds, "size", "found/orb/dlib", "surf", "orb", "dlib", "surf x2", "surf/orb", "dlib/surf",
-      "x1/2", "integral hessian suppression orientation descriptor");
-  for (const cv::Size size : sizes) {
-    const cv::Mat picture = picture_of(size);
-    std::vector<Case> cases;
-    for (const int count : {500, 1000, 2000, 5000}) {
-      cases.push_back({"", {}});
-      cases.back().options.max_features = count;
-    }
-    if (size.area() < cases[0].options.double_below_px) {
-      cases.push_back({"default", {}});
-      cases.back().options.surf.double_size = true;
-    }
-    for (const Case& of : cases)
-      compare(picture, of, bandwidth, size.width > 2000 ? std::max(1, rounds / 3) : rounds);
+  const auto rounds_of = [&](cv::Size size) {
+    return size.width > 2000 ? std::max(1, rounds / 3) : rounds;
+  };
+  if (!threads_only) {
+    print_memory(picture_of(sizes[2]));
+    const double bandwidth = bandwidth_gb();
+    std::printf("memory bandwidth (copy, read + written): %.1f GB/s\n\n", bandwidth);
+    std::printf(
+        "ms, medians of %d turns; ratios: medians of the turns', in brackets of processor time\n"
+        "%-17s %-17s | %7s %7s %8s | %12s  %13s | %s | times of the memory's\n",
+        rounds, "size", "found/orb/dlib", "surf", "orb", "dlib", "surf/orb", "dlib/surf",
+        "integral hessian suppression orientation descriptor");
+    for (const cv::Size size : sizes)
+      for (const Case& of : cases_of(size))
+        compare(picture_of(size), of, bandwidth, rounds_of(size));
   }
+  std::printf(
+      "\nms, and how many times as much is done: two threads for one picture, two that each have a "
+      "picture of their own\n%-17s %6s | %7s %7s %7s | %4s %4s | stages as above, two threads\n",
+      "size", "wanted", "one", "two", "2 apart", "two", "2 a.");
+  for (const cv::Size size : sizes)
+    for (const Case& of : cases_of(size)) compare_threads(picture_of(size), of, rounds_of(size));
 }
 
 }  // namespace
@@ -244,16 +301,19 @@ int main(int argc, char** argv) {
     std::filesystem::path folder = "../shared/data/oxford-affine";
     std::string file;
     int rounds = 31;
+    bool threads_only = false;
     for (int i = 1; i < argc; ++i) {
       const std::string argument = argv[i];
       if (argument == "--rounds" && i + 1 < argc)
         rounds = std::max(1, std::stoi(argv[++i]));
       else if (argument == "--picture" && i + 1 < argc)
         file = argv[++i];
+      else if (argument == "--threads-only")
+        threads_only = true;
       else
         folder = argument;
     }
-    run(folder, file, rounds);
+    run(folder, file, rounds, threads_only);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_features: %s\n", error.what());
     return 1;

@@ -1,17 +1,18 @@
-// bench_server_soak [--clients N] [--seconds S] [--fps F] [--objects N]
+// bench_server_soak [--clients N] [--seconds S] [--fps F] [--dataset FOLDER]
 //
-// Starts `posevote serve` on a new database, teaches objects from the demo set, posts frames as a
-// client's camera would, and watches with N clients, every second one frames, the others events.
-// Prints one JSON object: memory at the beginning and after each twelfth of the time, frames and
-// results a second, the time from posting a frame until clients have it and its result
-// (percentiles, and the median of each twelfth: it would grow with a queue; ms), frames that were
-// left out.
+// Starts `posevote serve` on a new database, teaches all views of a dataset (data/demo when none is
+// named), posts its test pictures as a client's camera would, and watches with N clients, every
+// second one frames, the others events. Prints one JSON object: memory at the beginning and after
+// each twelfth of the time, frames and results a second, the time from posting a frame until
+// clients have it and its result (percentiles, and the median of each twelfth: it would grow with a
+// queue; ms), frames that were left out.
 #include <fcntl.h>
 #include <httplib.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -25,6 +26,8 @@
 #include <thread>
 #include <vector>
 
+#include "posevote/evaluate/dataset.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,7 +38,7 @@ struct Options {
   int clients = 8;
   double seconds = 60;
   double fps = 15;
-  int objects = 25;
+  fs::path dataset = "data/demo";
 };
 
 double seconds_since(Clock::time_point begin) {
@@ -94,25 +97,20 @@ class Served {
   int port_ = 0;
 };
 
-/// Every view of the demo set as an object of its own, as many as are wanted.
-int teach(const Served& server, int wanted) {
+/// Returns how many views were taken.
+int teach(const Served& server, const posevote::Dataset& dataset) {
   int taught = 0;
   auto client = server.client();
-  for (const auto& object : fs::directory_iterator("data/demo/train")) {
-    const fs::path background = object.path() / "background.jpg";
-    for (const auto& view : fs::directory_iterator(object)) {
-      if (taught == wanted) return taught;
-      if (view.path() == background) continue;
+  for (const auto& object : dataset.objects)
+    for (const auto& view : object.views) {
       httplib::MultipartFormDataItems parts{
-          {"picture", content(view.path()), "picture.jpg", "image/jpeg"}};
-      if (fs::exists(background))
-        parts.push_back({"background", content(background), "background.jpg", "image/jpeg"});
-      const std::string name =
-          object.path().filename().string() + "-" + view.path().stem().string();
-      const auto result = client.Post("/api/objects/" + name + "/views", parts);
+          {"picture", content(dataset.path(view.image)), "picture.jpg", "image/jpeg"}};
+      if (!view.background.empty())
+        parts.push_back(
+            {"background", content(dataset.path(view.background)), "background.jpg", "image/jpeg"});
+      const auto result = client.Post("/api/objects/" + object.name + "/views", parts);
       if (result && result->status == 201) ++taught;
     }
-  }
   return taught;
 }
 
@@ -142,19 +140,18 @@ class Times {
 };
 
 /// Posts the test pictures one after the other at a steady rate.
-void post_frames(const Served& server, const Options& options, Times& times,
+void post_frames(const Served& server, const posevote::Dataset& dataset, double fps, Times& times,
                  const std::atomic<bool>& stop) {
   std::vector<std::string> pictures;
-  for (const auto& entry : fs::directory_iterator("data/demo/test"))
-    pictures.push_back(content(entry.path()));
+  for (const auto& test : dataset.tests) pictures.push_back(content(dataset.path(test.image)));
   auto client = server.client();
   auto due = Clock::now();
   std::int64_t next = server.metric("posevote_frames_total") > 0 ? -1 : 0;
   for (std::size_t i = 0; !stop; ++i) {
     std::this_thread::sleep_until(due);
-    due = std::max(due + std::chrono::duration_cast<Clock::duration>(
-                             std::chrono::duration<double>(1 / options.fps)),
-                   Clock::now());
+    due = std::max(
+        due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / fps)),
+        Clock::now());
     const auto begin = Clock::now();
     if (next >= 0) times.posted(next, begin);  // it may arrive before the answer does
     const auto result = client.Post("/api/live/frame", pictures[i % pictures.size()], "image/jpeg");
@@ -213,16 +210,18 @@ Json summarize(const std::vector<std::vector<Delay>>& of_clients, Clock::time_po
 Json run(const Options& options) {
   std::string folder = (fs::temp_directory_path() / "posevote-soak-XXXXXX").string();
   if (!mkdtemp(folder.data())) throw std::runtime_error("cannot make a temporary folder");
+  const posevote::Dataset dataset = posevote::load_dataset(options.dataset);
   Json report{{"clients", options.clients}, {"seconds", options.seconds}};
+  report["objects"] = dataset.objects.size();
   {
     const Served server(folder);
-    report["objects"] = teach(server, options.objects);
+    report["views"] = teach(server, dataset);
     Times times;
     std::atomic<bool> stop = false;
     const auto count = static_cast<std::size_t>(options.clients);
     std::vector<std::vector<Delay>> frames(count), results(count);
     std::vector<std::thread> threads;
-    threads.emplace_back([&] { post_frames(server, options, times, stop); });
+    threads.emplace_back([&] { post_frames(server, dataset, options.fps, times, stop); });
     for (std::size_t i = 0; i < count; ++i)
       threads.emplace_back([&, i] {
         if (i % 2 == 0)
@@ -257,20 +256,13 @@ Json run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string name = argv[i];
-    const double value = std::atof(argv[i + 1]);
-    if (name == "--clients")
-      options.clients = static_cast<int>(value);
-    else if (name == "--seconds")
-      options.seconds = value;
-    else if (name == "--fps")
-      options.fps = value;
-    else if (name == "--objects")
-      options.objects = static_cast<int>(value);
-    else
-      return std::cerr << "bench_server_soak: there is no option " << name << '\n', 2;
-  }
+  CLI::App app("Many clients watch a server for a long time");
+  app.add_option("--clients", options.clients, "How many watch");
+  app.add_option("--seconds", options.seconds, "How long");
+  app.add_option("--fps", options.fps, "Pictures posted a second");
+  app.add_option("--dataset", options.dataset,
+                 "Folder with dataset.json: what is taught and shown");
+  CLI11_PARSE(app, argc, argv);
   try {
     std::cout << run(options).dump(2) << '\n';
   } catch (const std::exception& error) {

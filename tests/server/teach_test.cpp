@@ -127,10 +127,12 @@ TEST_F(TeachOverHttp, AClientsCameraIsASource) {
   start();
   EXPECT_EQ(get("/api/source")["source"], "client");
   teach_poster();
-  const Json posted = post("/api/live/frame", content(demo("train/poster/cover.jpg")));
+  const std::string picture = content(demo("train/poster/cover.jpg"));
+  std::set<Json> posted;  // again and again, as a camera does: who is silent is taken for gone
   ASSERT_TRUE(eventually([&] {
+    posted.insert(post("/api/live/frame", picture)["frame"]);
     const Json live = get("/api/live");
-    return live.contains("result") && live["result"]["frame"] == posted["frame"];
+    return live.contains("result") && posted.contains(live["result"]["frame"]);
   }));
   EXPECT_TRUE(names_of(get("/api/live")["result"]).contains("poster"));
 }

@@ -166,6 +166,7 @@ void compare(const cv::Mat& picture, const Case& of, double bandwidth, int round
     every_fourth.add({ours.wall[i], ours.processor[i]});
   const auto stage = [&](double StageTimes::*field) {
     std::vector<double> values;
+    values.reserve(stages.size());
     for (const StageTimes& times : stages) values.push_back(times.*field);
     return median(values);
   };

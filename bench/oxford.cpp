@@ -245,6 +245,7 @@ void run(const std::filesystem::path& folder, double factor, const std::vector<M
     const auto sequence = folder / name;
     const cv::Mat first = read_grey(sequence / "img1.png");
     std::vector<Features> reference;
+    reference.reserve(methods.size());
     for (const Method& method : methods) reference.push_back(method.extract(first));
     for (int n = 2; n <= 6; ++n) {
       cv::Mat other = read_grey(sequence / ("img" + std::to_string(n) + ".png"));

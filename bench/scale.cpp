@@ -288,6 +288,7 @@ Problem make_problem(const Settings& settings, const Pictures& pictures, int siz
   }
   if (size <= settings.peers_up_to) {
     std::vector<cv::Mat> parts;
+    parts.reserve(views.size());
     for (const auto& view : views) parts.push_back(view->features.descriptors);
     cv::vconcat(parts, problem.rows);
   }

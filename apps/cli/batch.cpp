@@ -62,6 +62,7 @@ void run(const BatchArguments& arguments) {
   setenv("POSEVOTE_DB", database_path(arguments.database).c_str(), 1);
   std::vector<std::string> words = words_of(arguments);
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   execv(POSEVOTE_PYTHON, pointers.data());

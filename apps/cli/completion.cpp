@@ -41,8 +41,8 @@ std::string walk(const std::vector<CommandNode>& commands) {
 }
 
 /// Case lines for the word after an option that takes a value.
-std::string after_options(const std::vector<CommandNode>& commands, const std::string& offer_begin,
-                          const std::string& offer_end, const std::string& offer_files) {
+std::string after_options(const std::vector<CommandNode>& commands, const char* offer_begin,
+                          const char* offer_end, const char* offer_files) {
   std::string text;
   for (const CommandNode& command : commands)
     for (const OptionNode& option : command.options)

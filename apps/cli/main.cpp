@@ -89,6 +89,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::vector<std::string> arguments = posevote::take_arguments(argc, argv);
   std::vector<char*> words;
+  words.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error to tell, not to die of

@@ -48,6 +48,7 @@ std::string indented(const std::string& text) {
 template <class Record, class Field>
 std::vector<double> column(const std::vector<Record>& records, Field field) {
   std::vector<double> values;
+  values.reserve(records.size());
   for (const Record& record : records) values.push_back(static_cast<double>(record.*field));
   return values;
 }

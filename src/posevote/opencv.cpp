@@ -20,10 +20,14 @@ float degrees_from_radians(float angle) {
 }
 
 cv::KeyPoint to_opencv(const Keypoint& keypoint) {
-  cv::KeyPoint point(keypoint.x, keypoint.y, keypoint.scale * kSizePerScale,
-                     degrees_from_radians(keypoint.angle), keypoint.response);
-  point.class_id = keypoint.laplacian;
-  return point;
+  constexpr int kOctave = 0;  // of no use: the size says it
+  return {keypoint.x,
+          keypoint.y,
+          keypoint.scale * kSizePerScale,
+          degrees_from_radians(keypoint.angle),
+          keypoint.response,
+          kOctave,
+          keypoint.laplacian};
 }
 
 // Points of any detector: wherever they are and however large, something can be described there.
@@ -73,6 +77,7 @@ class OpenCvSurf final : public cv::Feature2D {
   void describe(const cv::Mat& picture, std::vector<cv::KeyPoint>& points,
                 cv::OutputArray descriptors) {
     std::vector<Keypoint> keypoints;
+    keypoints.reserve(points.size());
     for (const cv::KeyPoint& point : points) keypoints.push_back(from_opencv(point));
     const cv::Mat rows = workspace_.describe(picture, keypoints, options_);
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -53,7 +53,7 @@ TEST_F(BadDatabase, Truncated) {
 }
 
 TEST_F(BadDatabase, Overwritten) {
-  overwrite(3 * 4096, std::string(8192, 'x'));
+  overwrite(std::size_t{3} * 4096, std::string(8192, 'x'));
   expect_refused("damaged");
 }
 

@@ -194,11 +194,10 @@ TEST_F(SharedDatabase, NoPasswordIsInTheListOfProcesses) {
   ASSERT_EQ(listen(listener, 1), 0);
   socklen_t size = sizeof place;
   getsockname(listener, reinterpret_cast<sockaddr*>(&place), &size);
-  const std::string port = std::to_string(ntohs(place.sin_port));
-  for (const std::string password :
-       {"secret", "a?secret", "it's secret", "\"secret\"", "%25secret"})
-    for (const std::string& address : {"robot:" + password + "@127.0.0.1:" + port + "/db",
-                                       "robot@127.0.0.1:" + port + "/db?sslpassword=" + password}) {
+  const std::string database = "@127.0.0.1:" + std::to_string(ntohs(place.sin_port)) + "/db";
+  for (const char* password : {"secret", "a?secret", "it's secret", "\"secret\"", "%25secret"})
+    for (const std::string& address : {std::string("robot:") + password + database,
+                                       "robot" + database + "?sslpassword=" + password}) {
       const pid_t child = start({"objects", "list", "--db", "postgresql://" + address});
       const int call = accept(listener, nullptr, nullptr);
       const std::string words = content("/proc/" + std::to_string(child) + "/cmdline");

@@ -2,15 +2,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "server_process.hpp"
 
 namespace posevote {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kToken = "a token of some length";
 

@@ -91,7 +91,7 @@ std::string ApiDescription::check_value(YAML::Node schema, const Json& value,
     return at + " is too large: " + value.dump();
   if (value.is_array()) {
     for (std::size_t i = 0; i < value.size(); ++i) {
-      const std::string wrong =
+      std::string wrong =
           check_value(schema["items"], value[i], at + "[" + std::to_string(i) + "]");
       if (!wrong.empty()) return wrong;
     }
@@ -116,11 +116,13 @@ std::string ApiDescription::check_object(const YAML::Node& schema, const Json& v
   for (const YAML::Node& part : parts)
     for (const YAML::Node& name : part["required"])
       if (!value.contains(name.as<std::string>())) return at + " has no " + name.as<std::string>();
+  const std::string within = at + ".";
   for (const auto& [name, inner] : value.items()) {
-    std::string wrong = at + "." + name + " is not described";
+    const std::string place = within + name;
+    std::string wrong = place + " is not described";
     for (const YAML::Node& part : parts)
       if (const YAML::Node property = part["properties"][name]; property.IsDefined())
-        wrong = check_value(property, inner, at + "." + name);
+        wrong = check_value(property, inner, place);
     if (!wrong.empty()) return wrong;
   }
   return "";

@@ -62,7 +62,10 @@ class Contract : public ServerTest {
   /// The path with ids of things that are there.
   std::string path_of(const Operation& operation) const {
     std::string path = operation.path;
-    for (const auto& [name, id] : ids_) path = replace(path, "{" + name + "}", id);
+    for (const auto& [name, id] : ids_) {
+      const std::string gap = "{" + name + "}";
+      path = replace(path, gap, id);
+    }
     return path;
   }
 
@@ -157,7 +160,10 @@ void Contract::things_that_are_not_there() {
   for (const Operation& one : api_.operations()) {
     if (!describes(one, 404) || one.path.find('{') == std::string::npos) continue;
     std::string path = one.path;
-    for (const auto& [name, id] : ids_) path = replace(path, "{" + name + "}", "999");
+    for (const auto& [name, id] : ids_) {
+      const std::string gap = "{" + name + "}";
+      path = replace(path, gap, "999");
+    }
     const bool json =
         one.path.ends_with("/merge") || one.path.ends_with("/save") || one.method == "PATCH";
     expect(one.name(), 404,
@@ -360,13 +366,17 @@ void Contract::too_much() {
   const std::string file = client().Get("/api/export")->body;
   std::atomic<bool> stop = false;
   std::vector<std::thread> others;
+  others.reserve(3);
   for (int i = 0; i < 3; ++i)
     others.emplace_back([&] {
       auto client = this->client();
       while (!stop) client.Post("/api/recognize", content(demo("test/kitchen.jpg")), kJpeg);
     });
   const std::string views = "/api/objects/{object}/views/{view}";
-  const std::vector<std::tuple<std::string, std::string, std::string>> requests{
+  struct Asked {
+    std::string name, path, body;
+  };
+  const std::vector<Asked> requests{
       {"POST /api/recognize", "/api/recognize", cover_},
       {"POST /api/explain", "/api/explain", cover_},
       {"POST /api/impostors", "/api/impostors", cover_},
@@ -386,14 +396,15 @@ void Contract::too_much() {
        ""},
       {"GET /api/teach-sessions/{session}/views/{view}/picture", one + "/views/1/picture?width=99",
        ""}};
-  for (const auto& [name, path, body] : requests) {
+  for (const Asked& asked : requests) {
     auto client = this->client();
     httplib::Result result(nullptr, httplib::Error::Unknown);
     EXPECT_TRUE(eventually([&] {
-      result = send(client, name.substr(0, name.find(' ')), path, {}, body, kJpeg);
+      result = send(client, asked.name.substr(0, asked.name.find(' ')), asked.path, {}, asked.body,
+                    kJpeg);
       return result && result->status == 503;
-    })) << name;
-    expect(name, 503, result);
+    })) << asked.name;
+    expect(asked.name, 503, result);
   }
   stop = true;
   for (std::thread& other : others) other.join();

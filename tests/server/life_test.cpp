@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class Life : public ServerTest {
  protected:
   std::string session_with_view() {
-    const std::string one =
+    std::string one =
         "/api/teach-sessions/" + post("/api/teach-sessions")["session"].get<std::string>();
     post(one + "/proposal", content(demo("train/poster/cover.jpg")));
     post(one + "/views");
@@ -28,6 +28,7 @@ TEST_F(Life, TerminatedItAnswersWhatIsInHand) {
   start();
   std::atomic<int> begun = 0, answered = 0;
   std::vector<std::thread> clients;
+  clients.reserve(3);
   for (int i = 0; i < 3; ++i)
     clients.emplace_back([&] {
       auto client = this->client();

@@ -43,6 +43,7 @@ ServerProcess::ServerProcess(const std::string& folder, const std::vector<std::s
   const auto tls = std::ranges::find(arguments, "--tls-cert");
   if (tls != arguments.end() && tls + 1 != arguments.end()) certificate_ = tls[1];
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   const std::string out = folder + "/out.txt", err = folder + "/err.txt";
@@ -140,7 +141,7 @@ void ServerTest::teach_poster() {
 
 std::string ServerTest::make_camera(const std::string& name,
                                     const std::vector<std::string>& pictures) {
-  const std::string camera = folder_ + "/" + name;
+  std::string camera = folder_ + "/" + name;
   fs::create_directory(camera);
   for (std::size_t i = 0; i < pictures.size(); ++i)
     fs::copy_file(pictures[i], camera + "/" + std::to_string(100 + i) + ".jpg");

@@ -114,6 +114,7 @@ TEST_F(Streams, EventsTellResultsStateAndChangesOfTheObjects) {
 TEST_F(Streams, EachFrameIsRecognisedOnceForAllClients) {
   start({"--camera", camera_, "--fps", "10"});
   std::vector<std::thread> clients;
+  clients.reserve(6);
   std::atomic<int> satisfied = 0;
   for (int i = 0; i < 6; ++i)
     clients.emplace_back([&] {
@@ -144,8 +145,8 @@ TEST_F(Streams, ASleepingClientHoldsNobodyUpAndIsLeftBehind) {
 
 TEST_F(Streams, ManyConnectionsAreTurnedAwayWithASentence) {
   start({"--camera", camera_, "--set", "limits.connections=4", "--set", "limits.wait_s=600"});
-  std::vector<int> held;
-  for (int i = 0; i < 4; ++i) held.push_back(sleeping_client());
+  std::vector<int> held(4);
+  for (int& socket : held) socket = sleeping_client();
   httplib::Result result(nullptr, httplib::Error::Unknown);
   EXPECT_TRUE(eventually([&] {
     result = client().Get("/api/health");

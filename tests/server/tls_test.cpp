@@ -160,6 +160,7 @@ TEST_F(TlsTest, WhoReadsNothingIsGivenUp) {
 TEST_F(TlsTest, HandshakesThatNeverEndHoldNobodyUp) {
   start_tls({"--set", "limits.idle_s=600"});
   std::vector<int> stalled;
+  stalled.reserve(12);
   for (int i = 0; i < 12; ++i) stalled.push_back(connection(i % 2 ? kHalfAHello : ""));
   EXPECT_EQ(get("/api/health")["status"], "ok");
   server_->send_signal(SIGTERM);
@@ -175,8 +176,8 @@ TEST_F(TlsTest, HandshakesThatNeverEndAreClosed) {
 
 TEST_F(TlsTest, ConnectionsTooManyAreClosed) {
   start_tls({"--set", "limits.connections=4", "--set", "limits.idle_s=600"});
-  std::vector<int> stalled;
-  for (int i = 0; i < 4; ++i) stalled.push_back(connection(""));
+  std::vector<int> stalled(4);
+  for (int& socket : stalled) socket = connection("");
   EXPECT_TRUE(eventually([&] { return !client().Get("/api/health"); }));
   for (const int socket : stalled) close(socket);
   EXPECT_TRUE(eventually([&] { return bool(client().Get("/api/health")); }));

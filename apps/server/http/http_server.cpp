@@ -233,7 +233,7 @@ class HttpServer::Listener : public httplib::Server {
         return true;
       });
     } else if (!response.type.empty()) {
-      to.set_content(std::move(response.body), response.type);
+      to.set_content(response.body, response.type);
     }
   }
 

@@ -46,7 +46,7 @@ Trash::Trash(std::string folder, double keep_s) : folder_(std::move(folder)), ke
 
 std::string Trash::keep(const ObjectStore& store, const std::string& object,
                         const std::string& view, const std::string& into) const {
-  const std::string id = random_hex(16);
+  std::string id = random_hex(16);
   const auto to = open_small(path(id) + ".posevote", Access::create);
   to->transact([&] {
     for (const ViewSummary& summary : store.views(object))

@@ -55,7 +55,7 @@ bool is_read_at_start(const std::string& option) {
 
 std::string database_path(const std::string& given) {
   if (!given.empty()) return given;
-  const std::string named = environment("POSEVOTE_DB");
+  std::string named = environment("POSEVOTE_DB");
   if (!named.empty()) return named;
   const std::string xdg = environment("XDG_DATA_HOME"), home = environment("HOME");
   if (xdg.empty() && home.empty())

@@ -52,7 +52,7 @@ Detection seen(const View& view, const Pose& plane, const Camera& by, double noi
   return detection;
 }
 
-Pose turned(double x_deg, double y_deg, cv::Vec3d translation) {
+Pose turned(double x_deg, double y_deg, const cv::Vec3d& translation) {
   cv::Matx33d about_x, about_y;
   cv::Rodrigues(cv::Vec3d(x_deg * CV_PI / 180, 0, 0), about_x);
   cv::Rodrigues(cv::Vec3d(0, y_deg * CV_PI / 180, 0), about_y);

@@ -79,7 +79,7 @@ TEST(RawImage, KnowsTheBayerPatterns) {
     std::vector<std::uint8_t> bytes(64, 0);
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x)
-        if (x % 2 == red.x && y % 2 == red.y) bytes[static_cast<std::size_t>(8 * y + x)] = 200;
+        if (x % 2 == red.x && y % 2 == red.y) bytes[8 * y + x] = 200;
     const auto mosaic = message(8, 8, encoding, bytes, 8);
     const cv::Vec3b colour = to_picture(mosaic.image).at<cv::Vec3b>(4, 4);
     EXPECT_EQ(colour, cv::Vec3b(0, 0, 200)) << encoding;

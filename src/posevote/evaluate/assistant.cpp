@@ -116,12 +116,12 @@ std::string make_dataset(const std::filesystem::path& folder) {
   if (!fs::is_directory(folder / "train") && !fs::is_directory(folder / "test"))
     throw Error(ErrorCode::not_found,
                 folder.string() + " has neither a folder train (train/NAME/PICTURE) nor test");
-  ordered_json document{{"name", fs::absolute(folder).lexically_normal().filename().string()},
+  fs::path named = fs::absolute(folder).lexically_normal();
+  if (!named.has_filename()) named = named.parent_path();  // a path that ends with a slash
+  ordered_json document{{"name", named.filename().string()},
                         {"description", ""},
                         {"objects", ordered_json::array()},
                         {"tests", ordered_json::array()}};
-  if (document["name"] == "")  // a path that ends with a slash
-    document["name"] = fs::absolute(folder).lexically_normal().parent_path().filename().string();
   for (const fs::path& path : sorted_entries(folder / "train"))
     if (fs::is_directory(path))
       document["objects"].push_back(

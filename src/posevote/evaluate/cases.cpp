@@ -62,6 +62,7 @@ std::string dots(const std::vector<cv::Point2f>& points, double radius, const st
 
 std::vector<cv::Point2f> scene_points(const std::vector<MatchedPoint>& matches) {
   std::vector<cv::Point2f> points;
+  points.reserve(matches.size());
   for (const MatchedPoint& match : matches) points.push_back(match.scene);
   return points;
 }

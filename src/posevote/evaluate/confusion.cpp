@@ -74,17 +74,17 @@ std::vector<std::string> mistakes_of(const Evaluation& evaluation) {
     for (std::size_t i = 0; i < outcome.score.judgements.size(); ++i) {
       const Judgement& judgement = outcome.score.judgements[i];
       if (judgement.verdict != Verdict::false_positive) continue;
-      const std::string& claimed = outcome.result.detections[i].object;
+      const Detection& claimed = outcome.result.detections[i];
       const std::string truth = judgement.truth >= 0 && judgement.iou > 0
                                     ? objects[static_cast<std::size_t>(judgement.truth)].name
                                     : none;
       const bool fits = judgement.iou >= 0.5;
-      if (truth == claimed)
-        ++(fits ? twice : places)[claimed];
+      if (truth == claimed.object)
+        ++(fits ? twice : places)[claimed.object];
       else if (fits)
-        ++names[claimed + " for " + truth];
+        ++names[claimed.object + " for " + truth];
       else
-        ++nothing[claimed];
+        ++nothing[claimed.object];
     }
   }
   std::vector<std::string> lines;

@@ -41,6 +41,7 @@ std::vector<Pair> nearest_pairs(const Dataset& dataset) {
 std::string middle(const std::vector<TestOutcome>& outcomes,
                    const std::function<double(const RecognitionResult&)>& value, int decimals) {
   std::vector<double> values;
+  values.reserve(outcomes.size());
   for (const TestOutcome& outcome : outcomes) values.push_back(value(outcome.result));
   return fixed(median(values), decimals);
 }
@@ -110,6 +111,7 @@ ReportSection paper_accumulator(const Dataset& dataset, const Method& method) {
     const auto outcomes = TaughtMethod(first.taught(), changed).run(dataset);
     const Summary s = summarize("", dataset, outcomes);
     std::vector<double> both;
+    both.reserve(outcomes.size());
     for (const TestOutcome& outcome : outcomes)
       both.push_back(outcome.result.time_ms.vote + outcome.result.time_ms.verify);
     table.rows.push_back({std::to_string(bins), std::to_string(s.asked), std::to_string(s.right),

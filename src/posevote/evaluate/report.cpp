@@ -282,7 +282,7 @@ std::string make_report(const std::vector<Evaluation>& evaluations,
 std::filesystem::path write_report(const std::string& html, const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  const auto file = folder / "index.html";
+  auto file = folder / "index.html";
   std::ofstream stream(file, std::ios::binary);
   stream << html;
   stream.close();

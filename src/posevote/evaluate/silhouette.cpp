@@ -11,6 +11,7 @@ namespace {
 
 std::vector<double> column(const std::vector<SilhouetteCase>& cases, double SilhouetteFit::*field) {
   std::vector<double> values;
+  values.reserve(cases.size());
   for (const SilhouetteCase& one : cases) values.push_back(one.fit.*field);
   return values;
 }

@@ -15,6 +15,7 @@ double share(int part, int whole) {
 
 TimeSummary summarize_times(const std::vector<StageTimes>& times, double StageTimes::*stage) {
   std::vector<double> values;
+  values.reserve(times.size());
   for (const StageTimes& time : times) values.push_back(time.*stage);
   return {median(values), quantile(values, 0.95)};
 }

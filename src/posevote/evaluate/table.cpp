@@ -21,8 +21,8 @@ std::string text_line(const std::vector<std::string>& row, const std::vector<std
   std::string line;
   for (std::size_t column = 0; column < widths.size(); ++column) {
     const std::string text = cell(row, column);
-    const std::string padding(widths[column] - width_of(text), ' ');
-    line += column == 0 ? text + padding : "  " + padding + text;
+    const std::size_t padding = widths[column] - width_of(text);
+    line += column == 0 ? text + std::string(padding, ' ') : std::string(2 + padding, ' ') + text;
   }
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
@@ -65,15 +65,16 @@ std::string Table::to_markdown() const {
 }
 
 std::string Table::to_html() const {
-  const auto line = [&](const std::vector<std::string>& row, const std::string& tag) {
+  const auto line = [&](const std::vector<std::string>& row, const char* begin, const char* end) {
     std::string text = "<tr>";
     for (std::size_t column = 0; column < header.size(); ++column)
-      text += "<" + tag + ">" + escape_html(cell(row, column)) + "</" + tag + ">";
+      text += begin + escape_html(cell(row, column)) + end;
     return text + "</tr>\n";
   };
   std::string text = title.empty() ? "" : "<h3>" + escape_html(title) + "</h3>\n";
-  text += "<div class=\"table\"><table>\n<thead>" + line(header, "th") + "</thead>\n<tbody>\n";
-  for (const auto& row : rows) text += line(row, "td");
+  text += "<div class=\"table\"><table>\n<thead>" + line(header, "<th>", "</th>") +
+          "</thead>\n<tbody>\n";
+  for (const auto& row : rows) text += line(row, "<td>", "</td>");
   text += "</tbody></table></div>\n";
   return text + (note.empty() ? "" : "<p class=\"note\">" + escape_html(note) + "</p>\n");
 }

@@ -49,6 +49,7 @@ class SiftExtractor final : public Extractor {
  private:
   Features strongest(const std::vector<cv::KeyPoint>& points, const cv::Mat& descriptors) const {
     std::vector<Keypoint> keypoints;
+    keypoints.reserve(points.size());
     for (const auto& point : points) keypoints.push_back(keypoint_from_opencv(point));
     std::vector<int> order(points.size());
     std::iota(order.begin(), order.end(), 0);

@@ -101,8 +101,8 @@ class AtItsPace : public FrameSource {
 
 class VideoSource : public FrameSource {
  public:
-  explicit VideoSource(cv::VideoCapture capture)
-      : capture_(std::move(capture)),
+  explicit VideoSource(const cv::VideoCapture& capture)
+      : capture_(capture),
         length_(static_cast<std::int64_t>(capture_.get(cv::CAP_PROP_FRAME_COUNT))) {}
 
   std::optional<Frame> next() override {
@@ -129,8 +129,8 @@ double pixels_of(const cv::VideoCapture& capture) {
 
 class CameraSource : public FrameSource {
  public:
-  CameraSource(cv::VideoCapture capture, std::string name, double max_megapixels)
-      : capture_(std::move(capture)), name_(std::move(name)), max_megapixels_(max_megapixels) {
+  CameraSource(const cv::VideoCapture& capture, std::string name, double max_megapixels)
+      : capture_(capture), name_(std::move(name)), max_megapixels_(max_megapixels) {
     check_size(pixels_of(capture_));
   }
 

@@ -49,6 +49,7 @@ std::vector<Input> folder_inputs(const std::string& folder) {
   if (paths.empty()) throw Error(ErrorCode::not_found, "folder '" + folder + "' holds no pictures");
   std::ranges::sort(paths);
   std::vector<Input> inputs;
+  inputs.reserve(paths.size());
   for (std::string& path : paths) inputs.push_back({InputKind::image, std::move(path), -1});
   return inputs;
 }

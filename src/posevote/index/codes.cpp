@@ -86,8 +86,10 @@ float Coder::encode_taught(const float* row, const float* center, float scale, s
 
 void Coder::decode_taught(const std::uint8_t* block, std::size_t lane, float scale,
                           float* row) const {
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d)
-    row[d] = static_cast<float>(block[(d / 4 * kBlockLanes + lane) * 4 + d % 4] - 128) / scale;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d) {
+    const int code = block[(d / 4 * kBlockLanes + lane) * 4 + d % 4];
+    row[d] = static_cast<float>(code - 128) / scale;
+  }
 }
 
 QueryCode Coder::encode_query(const float* row, std::int8_t* code) const {

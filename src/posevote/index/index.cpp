@@ -149,9 +149,9 @@ Part prepare(const Coder& coder, const Quantizer& quantizer, std::vector<Numbere
              int threads) {
   std::vector<Unit> bare;
   std::vector<Number> numbers;
-  for (auto& [unit, number] : units) {
-    bare.push_back(std::move(unit));
-    numbers.push_back(number);
+  for (NumberedUnit& one : units) {
+    bare.push_back(std::move(one.unit));
+    numbers.push_back(one.number);
   }
   assign_lists(coder, quantizer, bare, threads);
   return {std::make_shared<Segment>(coder, quantizer, std::move(bare)), std::move(numbers)};
@@ -232,12 +232,12 @@ void IndexOptions::describe(OptionList& list) {
            "Threads of one search; the answers do not depend on it.");
 }
 
-std::shared_ptr<const Index> make_index(std::shared_ptr<const ModelSet> models,
+std::shared_ptr<const Index> make_index(const std::shared_ptr<const ModelSet>& models,
                                         const IndexOptions& options, const Index* previous) {
   return build(*models, options, dynamic_cast<const ListIndex*>(previous), {});
 }
 
-std::shared_ptr<const Index> load_index(std::shared_ptr<const ModelSet> models,
+std::shared_ptr<const Index> load_index(const std::shared_ptr<const ModelSet>& models,
                                         const std::string& saved, const IndexOptions& options) {
   return build(*models, options, nullptr, saved);
 }

@@ -59,7 +59,7 @@ class Index {
 /// Indexes all features of `models`; their descriptors may be CV_32F or CV_16F. Descriptors of
 /// views that `previous` holds already (the same View object) are not prepared again, and its lists
 /// are kept until they fit badly (16 times more or fewer descriptors than they were made for).
-[[nodiscard]] std::shared_ptr<const Index> make_index(std::shared_ptr<const ModelSet> models,
+[[nodiscard]] std::shared_ptr<const Index> make_index(const std::shared_ptr<const ModelSet>& models,
                                                       const IndexOptions& options = {},
                                                       const Index* previous = nullptr);
 
@@ -67,7 +67,7 @@ class Index {
 /// older or newer state of the models: views are known again by their hash (by their content if
 /// they have none), others are added. Bytes that are damaged, of another version of this library or
 /// of another kind of feature are of no use and ignored.
-[[nodiscard]] std::shared_ptr<const Index> load_index(std::shared_ptr<const ModelSet> models,
+[[nodiscard]] std::shared_ptr<const Index> load_index(const std::shared_ptr<const ModelSet>& models,
                                                       const std::string& saved,
                                                       const IndexOptions& options = {});
 

@@ -308,6 +308,7 @@ TEST(ApproximateIndex, FindsNearlyAllRivals) {
   const auto models = make_models(views);
   const Features scene = seen_again(views);
   std::vector<int> groups;
+  groups.reserve(60);
   for (int v = 0; v < 60; ++v) groups.push_back(v / 6);
   const auto found = make_index(models, approximate())->search_rivals(scene, 24, groups);
   const auto expected = make_index(models, exact())->search_rivals(scene, 24, groups);

@@ -67,6 +67,7 @@ TEST(Centers, NameTheNearestListsFirstOfAll) {
       std::vector<Centers::Probe> found(expected);
       centers.nearest(coder, {{code.data()}, 1}, probes, buffer, found.data());
       std::vector<std::uint16_t> lists;
+      lists.reserve(found.size());
       for (const Centers::Probe& probe : found) lists.push_back(probe.list);
       EXPECT_TRUE(std::is_sorted(lists.begin() + 1, lists.end()));
       for (const Centers::Probe& probe : found) EXPECT_LE(probe.product, found[0].product);

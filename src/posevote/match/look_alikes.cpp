@@ -81,7 +81,7 @@ void mark_look_alikes(std::size_t object, const Features& sample, const Index& i
 
 }  // namespace
 
-LookAlikes find_look_alikes(std::shared_ptr<const ModelSet> models, const Index& index,
+LookAlikes find_look_alikes(const std::shared_ptr<const ModelSet>& models, const Index& index,
                             const LookAlikes* before) {
   const std::size_t count = models->objects().size();
   LookAlikes result{models, std::vector<char>(count * count, 0)};

@@ -18,7 +18,7 @@ struct LookAlikes {
 /// Two objects look alike when a good part of the features of one of them is found on the other,
 /// much nearer than on any third. Looks at a sample of each object's features; `index` holds
 /// `models`. Of objects that are in `before` with the same views, only new partners are looked for.
-[[nodiscard]] LookAlikes find_look_alikes(std::shared_ptr<const ModelSet> models,
+[[nodiscard]] LookAlikes find_look_alikes(const std::shared_ptr<const ModelSet>& models,
                                           const Index& index, const LookAlikes* before = nullptr);
 
 /// For each view of the models a number that it shares with the other views of its object and, by

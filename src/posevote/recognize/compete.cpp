@@ -193,6 +193,7 @@ std::vector<Hypothesis> compete(std::vector<Hypothesis> hypotheses, const SceneC
     if (claim.hypothesis.rejected.empty()) claims.push_back(std::move(claim));
   }
   std::vector<Hypothesis> kept;
+  kept.reserve(claims.size());
   for (Claim& claim : claims) kept.push_back(std::move(claim.hypothesis));
   return kept;
 }

@@ -14,6 +14,7 @@ int index_of(const ModelSet& models, const std::string& object) {
   const auto found = std::ranges::find(objects, object, &ObjectModel::name);
   if (found != objects.end()) return static_cast<int>(found - objects.begin());
   std::vector<std::string> names;
+  names.reserve(objects.size());
   for (const ObjectModel& known : objects) names.push_back(known.name);
   const std::string nearest = nearest_word(object, names);
   throw Error(ErrorCode::not_found,

@@ -55,7 +55,7 @@ TEST(Prepared, ObjectsWithoutHashesAreNotKnown) {
 TEST(Prepared, DamagedBytesAreAsGoodAsNone) {
   const auto models = models_of({{"tea", {kTea}}});
   const std::string whole = saved();
-  for (std::string bytes : {std::string(), whole.substr(0, whole.size() / 2), whole + "x"}) {
+  for (const std::string& bytes : {std::string(), whole.substr(0, whole.size() / 2), whole + "x"}) {
     EXPECT_TRUE(read_prepared(bytes, *models).index.empty());
     EXPECT_FALSE(read_prepared(bytes, *models).look_alikes.models);
   }

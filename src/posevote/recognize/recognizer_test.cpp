@@ -117,10 +117,10 @@ cv::Mat triangles() {
   cv::Mat picture(240, 240, CV_8UC3, cv::Scalar(128, 128, 128));
   cv::RNG random(5);
   for (int i = 0; i < 150; ++i) {
-    std::vector<cv::Point> corners;
+    std::vector<cv::Point> corners(3);
     const cv::Point start(random.uniform(0, 240), random.uniform(0, 240));
-    for (int c = 0; c < 3; ++c)
-      corners.push_back(start + cv::Point(random.uniform(-25, 25), random.uniform(-25, 25)));
+    for (cv::Point& corner : corners)
+      corner = start + cv::Point(random.uniform(-25, 25), random.uniform(-25, 25));
     const cv::Scalar colour(random.uniform(0, 256), random.uniform(0, 256), random.uniform(0, 256));
     cv::fillConvexPoly(picture, corners, colour, cv::LINE_AA);
   }

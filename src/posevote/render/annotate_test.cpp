@@ -39,7 +39,8 @@ TEST(Annotate, NothingFoundLeavesThePictureAsItIs) {
 TEST(Annotate, OutlineTintLabelAndPointsAreDrawnWhereTheObjectIs) {
   const cv::Mat image = annotate(grey_picture(), made_result());
   const cv::Scalar color = object_color("Müsli");
-  const cv::Vec3b at_point = image.at<cv::Vec3b>(150, 150), at_line = image.at<cv::Vec3b>(150, 100);
+  const auto& at_point = image.at<cv::Vec3b>(150, 150);
+  const auto& at_line = image.at<cv::Vec3b>(150, 100);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(at_point[c], color[c], 2);
     EXPECT_NEAR(at_line[c], color[c], 30);

@@ -58,6 +58,7 @@ TEST(Address, ArgumentsAreTakenAndOverwritten) {
                                  "postgresql://a:b@c"};
   const std::vector<std::string> expected = given;
   std::vector<char*> argv;
+  argv.reserve(given.size());
   for (std::string& word : given) argv.push_back(word.data());
   EXPECT_EQ(take_arguments(5, argv.data()), expected);
   EXPECT_STREQ(argv[2], "postgresql://robot:***@host/db");

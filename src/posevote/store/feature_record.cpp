@@ -32,7 +32,7 @@ FeatureOptions parse_settings(const FeatureRecord& record) {
 }
 
 FeatureOptions recorded_options(const FeatureRecord& record) {
-  const FeatureOptions options = parse_settings(record);
+  FeatureOptions options = parse_settings(record);
   if (options.signature() != record.signature)
     throw Error(ErrorCode::feature_mismatch,
                 "the database holds features '" + record.signature +

@@ -416,6 +416,7 @@ TEST_P(Store, ManyTeachersAndReadersAtOnce) {
   constexpr int teachers = 3, views_each = 8;
   std::atomic<int> running = teachers;
   std::vector<std::thread> threads;
+  threads.reserve(teachers);
   for (int t = 0; t < teachers; ++t)
     threads.emplace_back([&, t] {
       const auto store = t == 0 ? nullptr : open();  // the first one shares a connection

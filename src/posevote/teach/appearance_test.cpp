@@ -16,7 +16,7 @@ cv::Mat filled(cv::Vec3f colour) {
 const cv::Vec3f kGround(110, 130, 150);
 
 // Evidence for the background at the middle of a plain picture.
-float log_likelihood_of(cv::Vec3f colour) {
+float log_likelihood_of(const cv::Vec3f& colour) {
   const cv::Mat picture = filled(colour), expected = filled(kGround), variance = filled({4, 4, 4});
   const cv::Mat everywhere(picture.size(), CV_32F, cv::Scalar(1));
   const ShadowOptions options;
@@ -103,7 +103,9 @@ TEST(ObjectColours, PrefersWhatItHasSeen) {
   cv::Mat sure(40, 40, CV_8U, cv::Scalar(255));
   picture(cv::Rect(0, 0, 20, 40)) = cv::Scalar(255, 255, 255);
   const ObjectColours colours(picture, sure);
-  const auto at = [&](cv::Vec3f c) { return colours.log_likelihood(filled(c)).at<float>(3, 3); };
+  const auto at = [&](const cv::Vec3f& c) {
+    return colours.log_likelihood(filled(c)).at<float>(3, 3);
+  };
   EXPECT_GT(at({20, 200, 90}), std::log(kAnyColour) + 5);
   EXPECT_GT(at({255, 255, 255}), std::log(kAnyColour) + 5);
   EXPECT_GT(at({22, 196, 94}), std::log(kAnyColour) + 4);

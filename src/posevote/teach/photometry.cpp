@@ -36,7 +36,7 @@ double mode_of_gain(const cv::Mat& picture, const cv::Mat& background, const cv:
     for (int x = 0; x < picture.cols; ++x) {
       if (!f[x] || p[x][channel] > 250 || b[x][channel] > 250) continue;
       const double ratio = std::log((p[x][channel] + kDark) / (b[x][channel] + kDark));
-      const int bin = static_cast<int>(std::floor(ratio / kWidth + kBins / 2));
+      const int bin = static_cast<int>(std::floor(ratio / kWidth + kBins / 2.0));
       if (bin >= 0 && bin < kBins) histogram.at<float>(bin) += 1;
     }
   }
@@ -44,7 +44,7 @@ double mode_of_gain(const cv::Mat& picture, const cv::Mat& background, const cv:
   cv::Point peak;
   double height = 0;
   cv::minMaxLoc(histogram, nullptr, &height, nullptr, &peak);
-  return height > 0 ? std::exp((peak.x + 0.5 - kBins / 2) * kWidth) : 1.0;
+  return height > 0 ? std::exp((peak.x + 0.5 - kBins / 2.0) * kWidth) : 1.0;
 }
 
 // Every step-th pixel in x and y makes about 12,000 samples: more would not be more accurate.

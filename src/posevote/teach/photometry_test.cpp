@@ -13,7 +13,7 @@ cv::Mat levels(const cv::Mat& picture) {
   return result;
 }
 
-cv::Mat changed(const cv::Mat& picture, cv::Scalar gain, double offset) {
+cv::Mat changed(const cv::Mat& picture, const cv::Scalar& gain, double offset) {
   cv::Mat result;
   cv::multiply(levels(picture), gain, result);
   return result + cv::Scalar::all(offset);

@@ -171,7 +171,7 @@ void advise(const View& view, const QualityOptions& options, ViewQuality& qualit
                      " border of the picture; move it to the middle.");
   }
   // A turned, smaller or half hidden object loses about three of four features.
-  if (quality.features < static_cast<std::size_t>(4 * options.needed_matches)) {
+  if (quality.features < 4 * static_cast<std::size_t>(options.needed_matches)) {
     advice.push_back("Only " + std::to_string(quality.features) +
                      " features; take the picture from nearer, sharper, with more light, or show a "
                      "side with more print.");

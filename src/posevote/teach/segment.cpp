@@ -103,7 +103,7 @@ cv::Mat local_range(const cv::Mat& image) {
   cv::Mat low, high;
   cv::dilate(image, high, window);
   cv::erode(image, low, window);
-  const cv::Mat range = high - low;
+  cv::Mat range = high - low;
   if (range.channels() == 1) return range;
   std::vector<cv::Mat> planes;
   cv::split(range, planes);
@@ -119,8 +119,9 @@ Novelty novelty_of(const cv::Mat& picture, const cv::Mat& expected, const cv::Ma
   cv::Mat brightness(picture.size(), CV_32F), colour(picture.size(), CV_32FC3);
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
-      const cv::Vec3f p = picture.at<cv::Vec3f>(y, x), b = expected.at<cv::Vec3f>(y, x);
-      const cv::Vec3f v = variance.at<cv::Vec3f>(y, x);
+      const auto& p = picture.at<cv::Vec3f>(y, x);
+      const auto& b = expected.at<cv::Vec3f>(y, x);
+      const auto& v = variance.at<cv::Vec3f>(y, x);
       const float length = std::sqrt(b.dot(b));
       const cv::Vec3f unit = length > 1 ? cv::Vec3f(b / length) : cv::Vec3f::all(0.57735F);
       n.rest.at<cv::Vec3f>(y, x) -= shading.at<float>(y, x) * b;
@@ -243,8 +244,9 @@ cv::Mat change_map(const cv::Mat& picture, const cv::Mat& expected, const cv::Ma
   cv::Mat result(picture.size(), CV_32F);
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
-      const cv::Vec3f m = mean.at<cv::Vec3f>(y, x), v = variance.at<cv::Vec3f>(y, x);
-      const cv::Vec3f b = expected.at<cv::Vec3f>(y, x);
+      const auto& m = mean.at<cv::Vec3f>(y, x);
+      const auto& v = variance.at<cv::Vec3f>(y, x);
+      const auto& b = expected.at<cv::Vec3f>(y, x);
       float z2 = 0;
       for (int c = 0; c < 3; ++c) z2 += m[c] * m[c] / (kMeanNoise * kMeanNoise * v[c]);
       float change = (z2 - kDoubt2) / (z2 + kDoubt2);

@@ -44,7 +44,7 @@ cv::Mat from_roi(const ViewSource& source) {
 
 cv::Mat from_alpha_or_all(const cv::Mat& picture) {
   if (picture.channels() == 4) {
-    const cv::Mat opaque = above_half(picture, 3);
+    cv::Mat opaque = above_half(picture, 3);
     if (cv::countNonZero(opaque) < static_cast<int>(picture.total())) return opaque;
   }
   return cv::Mat(picture.size(), CV_8U, cv::Scalar(255));
@@ -77,7 +77,7 @@ Features inside_border(const Features& features, const cv::Mat& mask, double bor
 
 Features features_of(const cv::Mat& picture, const cv::Mat& mask, const Extractor& extractor,
                      const TeachOptions& options) {
-  const Features features = extractor.extract(picture, mask);
+  Features features = extractor.extract(picture, mask);
   if (!options.only_repeatable) return features;
   const auto repeats = find_repeatable(picture, mask, features, extractor);
   return select(features, [&](std::size_t i) { return repeats[i] != 0; });

@@ -147,6 +147,7 @@ cv::Mat hull_mask(const std::vector<cv::Point2f>& points, const Patch& patch) {
   std::vector<cv::Point2f> hull;
   cv::convexHull(points, hull);
   std::vector<cv::Point> polygon;
+  polygon.reserve(hull.size());
   for (const cv::Point2f& p : hull)
     polygon.emplace_back(cvRound((p.x - patch.corner.x) / patch.scale),
                          cvRound((p.y - patch.corner.y) / patch.scale));

@@ -100,7 +100,7 @@ int count_scene_features(const std::vector<int>& cluster, const std::vector<Matc
   scene.reserve(cluster.size());
   for (const int m : cluster) scene.push_back(matches[static_cast<std::size_t>(m)].scene);
   std::ranges::sort(scene);
-  return static_cast<int>(std::ranges::unique(scene).begin() - scene.begin());
+  return static_cast<int>(std::unique(scene.begin(), scene.end()) - scene.begin());
 }
 
 PoseVote mean_pose(const std::vector<int>& cluster, const std::vector<PoseVote>& votes) {

@@ -166,7 +166,7 @@ void HessianPatch(const SumsView& view, int x, int y, int lobe, float norm,
   const int middle = lobe / 2, half = lobe + middle, wide = lobe - 1;
   const auto* at = reinterpret_cast<const std::int32_t*>(view.sums) + (y - 1) * view.stride + x - 1;
   float patch[12];
-  for (int row = 0; row < 3; ++row, at += view.stride) {
+  for (std::ptrdiff_t row = 0; row < 3; ++row, at += view.stride) {
     const auto range = [&](int j, int from, int to) HWY_ATTR {
       const std::int32_t* line = at + j * view.stride;
       return hn::Sub(hn::LoadU(d, line + to), hn::LoadU(d, line + from));
@@ -282,7 +282,7 @@ HWY_INLINE void SamplePatch(const SumsView& view, const PatchFrame& frame,
 HWY_INLINE void SumRows(const float* HWY_RESTRICT patch, float* HWY_RESTRICT sums) {
   const hn::CappedTag<float, kPatchNodes> d;
   const DescriptorWeights& weights = descriptor_weights();
-  for (int i = 0; i < kPatchNodes; i += static_cast<int>(hn::Lanes(d))) {
+  for (std::size_t i = 0; i < kPatchNodes; i += hn::Lanes(d)) {
     const float* at = patch + i;
     auto left = hn::LoadU(d, at), right = hn::LoadU(d, at + 1);
     auto dx_sum = hn::Zero(d), dy_sum = dx_sum, dx_abs = dx_sum, dy_abs = dx_sum;
@@ -312,14 +312,14 @@ void Descriptor(const SumsView& view, const PatchFrame& frame, float* HWY_RESTRI
   const int lanes = static_cast<int>(hn::Lanes(d));
   const DescriptorWeights& weights = descriptor_weights();
   auto squares = hn::Zero(d);
-  for (int row = 0; row < 4; ++row) {
+  for (std::ptrdiff_t row = 0; row < 4; ++row) {
     alignas(64) float sums[4 * kPatchNodes];
-    SumRows(patch + kSquareStep * row * kPatchNodes, sums);
-    for (int column = 0; column < 4; ++column)
+    SumRows(patch + kPatchNodes * kSquareStep * row, sums);
+    for (std::ptrdiff_t column = 0; column < 4; ++column)
       for (int k = 0; k < 4; k += lanes) {
-        const float* at = sums + 4 * kSquareStep * column + k;
+        const float* at = sums + column * kSquareStep * 4 + k;
         auto total = hn::Zero(d);
-        for (int tap = 0; tap < kSquareTaps; ++tap)
+        for (std::ptrdiff_t tap = 0; tap < kSquareTaps; ++tap)
           total = hn::MulAdd(hn::Load(d, at + 4 * tap), hn::Set(d, weights.taps[tap]), total);
         total = hn::Mul(total, hn::Set(d, weights.squares[row] * weights.squares[column]));
         squares = hn::MulAdd(total, total, squares);
@@ -357,7 +357,7 @@ HWY_INLINE void Wavelets(const WaveletGrid& grid, int j, float* HWY_RESTRICT pai
                          std::int32_t* HWY_RESTRICT bins) {
   const hn::CappedTag<float, kWaveletSide> d;
   const hn::RebindToSigned<decltype(d)> di;
-  for (int i = 0; i < kWaveletSide; i += static_cast<int>(hn::Lanes(d))) {
+  for (std::size_t i = 0; i < kWaveletSide; i += hn::Lanes(d)) {
     const auto at = [&](int row, int column)
                         HWY_ATTR { return hn::LoadU(di, grid.sums[j + row] + i + column); };
     const auto left = hn::Sub(at(4, 0), at(0, 0)), right = hn::Sub(at(4, 4), at(0, 4));
@@ -385,8 +385,9 @@ int SectorSums(const WaveletGrid& grid, const WaveletRange& range, float* HWY_RE
     alignas(64) float responses[2 * kWaveletSide];
     alignas(64) std::int32_t bins[kWaveletSide];
     Wavelets(grid, j, responses, bins);
-    for (int i = range.first_column; i <= range.last_column; ++i) {
-      float* at = sums[i % 2] + 2 * bins[i];
+    for (std::ptrdiff_t i = range.first_column; i <= range.last_column; ++i) {
+      const std::ptrdiff_t bin = bins[i];
+      float* at = sums[i % 2] + 2 * bin;
       at[0] += responses[2 * i];
       at[1] += responses[2 * i + 1];
     }
@@ -403,7 +404,7 @@ int SectorSums(const WaveletGrid& grid, const WaveletRange& range, float* HWY_RE
   join(four, four + 8, two, kAngleBins);    // eight
   join(two, four + 16, pairs, kAngleBins);  // twelve
   float lengths[kAngleBins];
-  for (int b = 0; b < kAngleBins; ++b)
+  for (std::ptrdiff_t b = 0; b < kAngleBins; ++b)
     lengths[b] = pairs[2 * b] * pairs[2 * b] + pairs[2 * b + 1] * pairs[2 * b + 1];
   auto most = hn::LoadU(d, lengths);
   for (int b = lanes; b < kAngleBins; b += lanes) most = hn::Max(most, hn::LoadU(d, lengths + b));

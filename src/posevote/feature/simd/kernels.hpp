@@ -32,7 +32,7 @@ struct PatchFrame {
   int side;            ///< px, of the boxes; at most the picture's own sides
 };
 
-inline constexpr int kPatchNodes = 16;  ///< boxes along one side
+inline constexpr std::ptrdiff_t kPatchNodes = 16;  ///< boxes along one side
 inline constexpr int kDescriptorSize = 64;
 
 /// Binomial filter 1 4 6 4 1 (sigma 1 px) both ways, rounded: `rows` are five rows of which the
@@ -71,7 +71,7 @@ struct WaveletGrid {
 struct WaveletRange {
   int first_row, last_row, first_column, last_column;
 };
-inline constexpr int kAngleBins = 72, kSectorBins = 12;  ///< 5 and 60 degrees
+inline constexpr std::ptrdiff_t kAngleBins = 72, kSectorBins = 12;  ///< 5 and 60 degrees
 
 /// (pairs[2 b], pairs[2 b + 1]): the sum of the weighted wavelet responses (dx, dy) of the points
 /// whose angle lies in the bins b ... b + 11, modulo 72, for all 72. The angle is a polynomial of

@@ -135,7 +135,7 @@ TEST_P(Kernels, DescriptorIsThePlainOneInsideAndAcrossTheBorder) {
     for (const float angle : {0.0F, 0.6F, 2.5F, -1.9F})
       for (const float spacing : {0.2F, 1.7F, 4.2F, 30.0F}) {
         const PatchFrame frame{x, y, spacing * std::cos(angle), spacing * std::sin(angle),
-                               std::max(1, static_cast<int>(spacing + 0.5F))};
+                               std::max(1, static_cast<int>(std::lround(spacing)))};
         float expected[kDescriptorSize], found[kDescriptorSize];
         plain::descriptor(view, frame, expected);
         descriptor(view, frame, found);
@@ -164,7 +164,9 @@ TEST_P(Kernels, SectorSumsAreThePlainOnes) {
     plain::sector_sums(grid, range, expected);
     const int longest = sector_sums(grid, range, found);
     for (int i = 0; i < 2 * kAngleBins; ++i) ASSERT_NEAR(found[i], expected[i], 2) << i;  // of 1e5
-    const auto length = [&](int b) { return std::hypot(found[2 * b], found[2 * b + 1]); };
+    const auto length = [&](std::ptrdiff_t b) {
+      return std::hypot(found[2 * b], found[2 * b + 1]);
+    };
     for (int b = 0; b < kAngleBins; ++b) EXPECT_LE(length(b), length(longest) * 1.000001);
   }
 }
@@ -185,7 +187,7 @@ TEST_P(Kernels, SectorSumsOfARampPointUpTheRamp) {
             static_cast<std::int32_t>(std::lround(1e4 * (c * x * x * y + s * y * y * x)));
     float pairs[2 * kAngleBins];
     sector_sums(grid, {0, 7, 0, 7}, pairs);
-    const int bin = static_cast<int>(degrees / 5);
+    const auto bin = static_cast<std::ptrdiff_t>(degrees / 5);
     const float x = pairs[2 * bin], y = pairs[2 * bin + 1];
     EXPECT_GT(x * c + y * s, 0);
     EXPECT_NEAR(std::atan2(x * s - y * c, x * c + y * s), 0, 1e-3);

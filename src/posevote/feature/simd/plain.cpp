@@ -39,7 +39,7 @@ int angle_bin(float x, float y) {
   if (ay > ax) angle = kBinsPerTurn / 4 - angle;
   if (x < 0) angle = kBinsPerTurn / 2 - angle;
   if (y < 0) angle = kBinsPerTurn - angle;
-  return std::min(static_cast<int>(angle), kAngleBins - 1);
+  return std::min<int>(static_cast<int>(angle), kAngleBins - 1);
 }
 
 // Sum of the closed range around (x, y); differences of wrapped sums are exact.
@@ -175,8 +175,8 @@ int sector_sums(const WaveletGrid& grid, const WaveletRange& range, float* pairs
       x += bins[k % kAngleBins][0];
       y += bins[k % kAngleBins][1];
     }
-    pairs[2 * bin] = x;
-    pairs[2 * bin + 1] = y;
+    *pairs++ = x;
+    *pairs++ = y;
     if (x * x + y * y > most) {
       most = x * x + y * y;
       longest = bin;

@@ -79,7 +79,7 @@ class BlobSearch {
 
   const Integral* integral_ = nullptr;
   SurfOptions options_;
-  int stride_ = 0;  // of a ring's rows
+  std::ptrdiff_t stride_ = 0;  // of a ring's rows
   std::vector<Block> blocks_;
   int blocks_used_ = 0;  // the others keep their room
   std::vector<Buffers> buffers_;

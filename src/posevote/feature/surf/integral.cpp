@@ -82,7 +82,7 @@ void Integral::fill_levels(int y) {
     if (at > levels_[k].height) return;
     const std::uint32_t* finer = levels_[k - 1].row(2 * at);
     std::uint32_t* row = levels_[k].row(at);
-    for (int x = 0; x <= levels_[k].width; ++x) row[x] = finer[2 * x];
+    for (std::ptrdiff_t x = 0; x <= levels_[k].width; ++x) row[x] = finer[2 * x];
   }
 }
 

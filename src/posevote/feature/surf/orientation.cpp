@@ -16,7 +16,7 @@ simd::WaveletGrid read_grid(const simd::SumsView& view, int x0, int y0, int step
   if (x0 >= 0 && y0 >= 0 && x0 + kLast * step <= view.width && y0 + kLast * step <= view.height) {
     const std::uint32_t* at = view.sums + y0 * view.stride + x0;
     for (auto& row : grid.sums) {
-      for (int i = 0; i <= kLast; ++i) row[i] = static_cast<std::int32_t>(at[i * step]);
+      for (std::ptrdiff_t i = 0; i <= kLast; ++i) row[i] = static_cast<std::int32_t>(at[i * step]);
       at += step * view.stride;
     }
     return grid;
@@ -44,7 +44,7 @@ float orientation(const Integral& integral, const Keypoint& keypoint) {
     return std::min(simd::kWaveletSide - 1, (size - at) / step - 4);
   };
   float pairs[2 * simd::kAngleBins];
-  const int best = simd::sector_sums(
+  const std::ptrdiff_t best = simd::sector_sums(
       read_grid(integral.view(), x0, y0, step),
       {first(y0), last(y0, integral.height()), first(x0), last(x0, integral.width())}, pairs);
   const float angle = std::atan2(pairs[2 * best + 1], pairs[2 * best]);

@@ -189,6 +189,7 @@ TEST(Surf, OneExtractorServesManyThreadsAndPicturesOfAllSizes) {
     expected.push_back(make_surf_extractor(FeatureOptions{})->extract(pictures.back()));
   }
   std::vector<std::jthread> threads;
+  threads.reserve(4);
   for (int t = 0; t < 4; ++t)
     threads.emplace_back([&, t] {
       for (int i = 0; i < 8; ++i) {

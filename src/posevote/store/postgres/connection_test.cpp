@@ -74,12 +74,11 @@ TEST_F(PostgresConnection, APasswordMayHoldAnything) {
     const std::string user = "any_" + std::to_string(getpid()) + "_" + std::to_string(number++);
     server_.run("postgres",
                 "CREATE ROLE " + user + " LOGIN SUPERUSER PASSWORD '" + std::string(in_sql) + "'");
-    const auto store = open_postgres_store(server_.loopback(database_, user + ":" + written));
+    const std::string login = user + ":" + written;
+    const auto store = open_postgres_store(server_.loopback(database_, login));
     EXPECT_THAT(store->location(), AllOf(HasSubstr(user + ":***@"), Not(HasSubstr("cret"))));
-    const auto error = error_of([&] {
-      static_cast<void>(
-          open_postgres_store(server_.loopback("none", user + ":" + std::string(written))));
-    });
+    const auto error =
+        error_of([&] { static_cast<void>(open_postgres_store(server_.loopback("none", login))); });
     EXPECT_THAT(error, AllOf(StartsWith("io"), HasSubstr("none"), Not(HasSubstr("cret"))));
   }
 }

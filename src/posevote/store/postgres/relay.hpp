@@ -110,7 +110,8 @@ class Relay {
     sockaddr_un place{};
     place.sun_family = AF_UNIX;
     socket_path_.copy(place.sun_path, sizeof place.sun_path - 1);
-    connect(server, reinterpret_cast<sockaddr*>(&place), sizeof place);
+    // A refused line ends as soon as something is to be passed on.
+    static_cast<void>(connect(server, reinterpret_cast<sockaddr*>(&place), sizeof place));
     lines_.push_back({{client, server}});
   }
 

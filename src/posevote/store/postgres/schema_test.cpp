@@ -198,10 +198,11 @@ class PostgresRoles : public PostgresSchema {
     const std::string sql{std::istreambuf_iterator<char>(file), {}};
     server_.run(database_, sql);  // by somebody who is not the owner
     server_.run(database_, sql);  // may be run again
-    for (const std::string role : {"reader", "teacher", "administrator"}) {
-      server_.run("postgres", "DROP ROLE IF EXISTS test_" + role);
-      server_.run("postgres", "CREATE ROLE test_" + role + " LOGIN IN ROLE posevote_" + role);
-    }
+    for (const char* role : {"reader", "teacher", "administrator"}) create_user(role);
+  }
+  void create_user(const std::string& role) const {
+    server_.run("postgres", "DROP ROLE IF EXISTS test_" + role);
+    server_.run("postgres", "CREATE ROLE test_" + role + " LOGIN IN ROLE posevote_" + role);
   }
   std::unique_ptr<ObjectStore> as(const std::string& role) const {
     return open_postgres_store(server_.address(database_, "test_" + role));

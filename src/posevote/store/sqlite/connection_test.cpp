@@ -44,7 +44,7 @@ class Connection : public testing::Test {
   /// Opens the database and reads everything, expects an error that names it and an untouched file.
   std::string refusal(const SqliteOptions& options = {}) const {
     const std::string before = content(path_);
-    const std::string error = error_of([&] {
+    std::string error = error_of([&] {
       const auto store = open_sqlite_store(path_, options);
       static_cast<void>(store->load());
       for (const auto& view : store->views("mug")) static_cast<void>(store->view("mug", view.id));

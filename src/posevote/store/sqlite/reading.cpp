@@ -142,7 +142,7 @@ std::shared_ptr<const View> SqliteStore::load_view(std::int64_t id, ViewReader& 
   patch.reset();
   patch.bind(1, id);
   const BlobView stored = patch.executeStep() ? blob_of(patch.getColumn(0)) : BlobView();
-  const auto fetch = [&] {
+  const auto fetch = [&row = row] {
     return std::pair(copy_of(row.getColumn("picture")), copy_of(row.getColumn("mask")));
   };
   halve_descriptors(view.features);

@@ -27,6 +27,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <string>
 #include <thread>
 
@@ -130,6 +131,13 @@ double ratio(const std::vector<double>& ours, const std::vector<double>& theirs)
   return median(ratios);
 }
 
+std::vector<double> column(const std::vector<StageTimes>& stages, double StageTimes::*field) {
+  std::vector<double> values;
+  values.reserve(stages.size());
+  for (const StageTimes& times : stages) values.push_back(times.*field);
+  return values;
+}
+
 struct Case {
   std::string name;
   posevote::FeatureOptions options;
@@ -164,12 +172,7 @@ void compare(const cv::Mat& picture, const Case& of, double bandwidth, int round
   Series every_fourth;
   for (std::size_t i = 0; i < ours.wall.size(); i += 4)
     every_fourth.add({ours.wall[i], ours.processor[i]});
-  const auto stage = [&](double StageTimes::*field) {
-    std::vector<double> values;
-    values.reserve(stages.size());
-    for (const StageTimes& times : stages) values.push_back(times.*field);
-    return median(values);
-  };
+  const auto stage = [&](double StageTimes::*field) { return median(column(stages, field)); };
   const double integral = stage(&StageTimes::integral), hessian = stage(&StageTimes::hessian);
   const double orientation = stage(&StageTimes::orientation);
   const double descriptor = stage(&StageTimes::descriptor);
@@ -225,12 +228,8 @@ void compare_threads(const cv::Mat& picture, const Case& of, int rounds) {
               of.name.c_str(), of.options.max_features, median(ones.wall), median(twos.wall),
               median(pairs.wall), ratio(ones.wall, twos.wall), 2 * ratio(ones.wall, pairs.wall));
   for (const auto field : {&StageTimes::integral, &StageTimes::hessian, &StageTimes::suppression,
-                           &StageTimes::orientation, &StageTimes::descriptor}) {
-    Series one, shared_by_two;
-    for (const StageTimes& times : one_stages) one.wall.push_back(times.*field);
-    for (const StageTimes& times : two_stages) shared_by_two.wall.push_back(times.*field);
-    std::printf(" %4.2f", ratio(one.wall, shared_by_two.wall));
-  }
+                           &StageTimes::orientation, &StageTimes::descriptor})
+    std::printf(" %4.2f", ratio(column(one_stages, field), column(two_stages, field)));
   std::printf("\n");
   std::fflush(stdout);
 }
@@ -260,6 +259,23 @@ std::vector<Case> cases_of(cv::Size size) {
   return cases;
 }
 
+int rounds_of(const cv::Mat& picture, int rounds) {
+  return picture.cols > 2000 ? std::max(1, rounds / 3) : rounds;
+}
+
+void compare_with_others(std::span<const cv::Mat> pictures, int rounds) {
+  const double bandwidth = bandwidth_gb();
+  std::printf("memory bandwidth (copy, read + written): %.1f GB/s\n\n", bandwidth);
+  std::printf(
+      "ms, medians of %d turns; ratios: medians of the turns', in brackets of processor time\n"
+      "%-17s %-17s | %7s %7s %8s | %12s  %13s | %s | times of the memory's\n",
+      rounds, "size", "found/orb/dlib", "surf", "orb", "dlib", "surf/orb", "dlib/surf",
+      "integral hessian suppression orientation descriptor");
+  for (const cv::Mat& picture : pictures)
+    for (const Case& of : cases_of(picture.size()))
+      compare(picture, of, bandwidth, rounds_of(picture, rounds));
+}
+
 void run(const std::filesystem::path& folder, const std::string& file, int rounds,
          bool threads_only) {
   cv::setNumThreads(1);
@@ -270,29 +286,19 @@ void run(const std::filesystem::path& folder, const std::string& file, int round
     cv::resize(picture, picture, size, 0, 0, cv::INTER_AREA);
     return picture;
   };
-  const cv::Size sizes[] = {{640, 480}, {1920, 1080}, {3264, 2448}};
-  const auto rounds_of = [&](cv::Size size) {
-    return size.width > 2000 ? std::max(1, rounds / 3) : rounds;
-  };
+  const cv::Mat pictures[] = {picture_of({640, 480}), picture_of({1920, 1080}),
+                              picture_of({3264, 2448})};
   if (!threads_only) {
-    print_memory(picture_of(sizes[2]));
-    const double bandwidth = bandwidth_gb();
-    std::printf("memory bandwidth (copy, read + written): %.1f GB/s\n\n", bandwidth);
-    std::printf(
-        "ms, medians of %d turns; ratios: medians of the turns', in brackets of processor time\n"
-        "%-17s %-17s | %7s %7s %8s | %12s  %13s | %s | times of the memory's\n",
-        rounds, "size", "found/orb/dlib", "surf", "orb", "dlib", "surf/orb", "dlib/surf",
-        "integral hessian suppression orientation descriptor");
-    for (const cv::Size size : sizes)
-      for (const Case& of : cases_of(size))
-        compare(picture_of(size), of, bandwidth, rounds_of(size));
+    print_memory(pictures[2]);
+    compare_with_others(pictures, rounds);
   }
   std::printf(
       "\nms, and how many times as much is done: two threads for one picture, two that each have a "
       "picture of their own\n%-17s %6s | %7s %7s %7s | %4s %4s | stages as above, two threads\n",
       "size", "wanted", "one", "two", "2 apart", "two", "2 a.");
-  for (const cv::Size size : sizes)
-    for (const Case& of : cases_of(size)) compare_threads(picture_of(size), of, rounds_of(size));
+  for (const cv::Mat& picture : pictures)
+    for (const Case& of : cases_of(picture.size()))
+      compare_threads(picture, of, rounds_of(picture, rounds));
 }
 
 }  // namespace

@@ -208,11 +208,12 @@ Json summarize(const std::vector<std::vector<Delay>>& of_clients, Clock::time_po
 }
 
 Json run(const Options& options) {
+  const posevote::Dataset dataset = posevote::load_dataset(options.dataset);
   std::string folder = (fs::temp_directory_path() / "posevote-soak-XXXXXX").string();
   if (!mkdtemp(folder.data())) throw std::runtime_error("cannot make a temporary folder");
-  const posevote::Dataset dataset = posevote::load_dataset(options.dataset);
-  Json report{{"clients", options.clients}, {"seconds", options.seconds}};
-  report["objects"] = dataset.objects.size();
+  Json report{{"clients", options.clients},
+              {"seconds", options.seconds},
+              {"objects", dataset.objects.size()}};
   {
     const Served server(folder);
     report["views"] = teach(server, dataset);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace posevote::surf {
 namespace {
@@ -63,6 +64,12 @@ void BlobSearch::cut_into_blocks(int threads) {
         block.peaks.clear();
       }
   }
+  by_place_.resize(blocks_used_);
+  std::iota(by_place_.begin(), by_place_.end(), 0);
+  std::ranges::stable_sort(by_place_, {}, [&](int b) {
+    const Block& block = blocks_[b];
+    return (block.begin + block.end) << block.octave;
+  });
 }
 
 void BlobSearch::search_block(Block& block, Buffers& buffers) const {
@@ -100,8 +107,9 @@ void BlobSearch::search(const Integral& integral, const SurfOptions& options, Te
     buffers.columns.resize(integral.width());
   }
   cut_into_blocks(threads);
-  team.share(threads, blocks_used_,
-             [&](int part, int thread) { search_block(blocks_[part], buffers_[thread]); });
+  team.share(threads, blocks_used_, [&](int part, int thread) {
+    search_block(blocks_[by_place_[part]], buffers_[thread]);
+  });
 }
 
 std::optional<Candidate> examine(const Peak& peak, const Integral& integral,

@@ -83,6 +83,7 @@ class BlobSearch {
   std::vector<Block> blocks_;
   int blocks_used_ = 0;  // the others keep their room
   std::vector<Buffers> buffers_;
+  std::vector<int> by_place_;  // the blocks from top to bottom of the picture
 };
 
 /// The layer and the 27 values of a peak; nothing when a neighbour is larger.

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <thread>
+#include <numeric>
 
 namespace posevote::surf {
 namespace {
 
-// Where threads share the work. Their pixels stay in the L2 cache; the sums of a block's columns
-// fit 16 bits.
+// Where threads share the work. The sums of a block's columns fit 16 bits.
 constexpr int kBlockRows = 64;
 
 // Rows an odd number of cache lines apart: rows 4096 bytes apart would share their cache sets.
@@ -37,11 +36,6 @@ void smooth_whole_row(const cv::Mat& grey, int y, std::uint16_t* scratch, std::u
   simd::smooth_row(rows, inner_end - edge, scratch, out + edge);
 }
 
-// Until `value` is `wanted`: whoever raises it is at work.
-void await(const std::atomic<int>& value, int wanted) {
-  while (value.load(std::memory_order_acquire) != wanted) std::this_thread::yield();
-}
-
 }  // namespace
 
 void Integral::prepare(const cv::Mat& grey, bool smooth, int levels, int threads) {
@@ -57,11 +51,11 @@ void Integral::prepare(const cv::Mat& grey, bool smooth, int levels, int threads
   }
   blocks_ = threads > 1 ? (height() + kBlockRows - 1) / kBlockRows : 1;
   buffers_.resize(threads);
-  for (Buffers& buffers : buffers_) {
-    buffers.pixels.resize(static_cast<std::size_t>(width()) * (blocks_ > 1 ? kBlockRows : 1));
-    buffers.columns.resize(width());
-    buffers.scratch.resize(grey.cols + 36);
-  }
+  for (Buffers& buffers : buffers_) buffers.scratch.resize(grey.cols + 36);
+  pixels_.resize(static_cast<std::size_t>(width()) * (blocks_ > 1 ? height() : 1));
+  if (blocks_ == 1) return;
+  columns_.resize(static_cast<std::size_t>(width()) * blocks_);
+  above_.resize(width());
 }
 
 void Integral::fill_row(int y, std::uint16_t* scratch, std::uint8_t* row) const {
@@ -95,32 +89,41 @@ void Integral::sum_row(int y, const std::uint8_t* pixels) {
 
 void Integral::sum_all(Buffers& buffers) {
   for (int y = 0; y < height(); ++y) {
-    fill_row(y, buffers.scratch.data(), buffers.pixels.data());
-    sum_row(y, buffers.pixels.data());
+    fill_row(y, buffers.scratch.data(), pixels(0));
+    sum_row(y, pixels(0));
   }
 }
 
-// All sums need those above them: the last row of a block is found first, from the sums of the
-// columns, so that the next block is not kept waiting.
-void Integral::sum_block(int number, Buffers& buffers) {
-  const int begin = number * kBlockRows, end = std::min(begin + kBlockRows, height());
-  const auto pixels = [&](int y) {
-    return &buffers.pixels[static_cast<std::size_t>(y - begin) * width()];
-  };
-  std::ranges::fill(buffers.columns, std::uint16_t{0});
-  for (int y = begin; y < end; ++y) {
-    fill_row(y, buffers.scratch.data(), pixels(y));
-    const std::uint8_t* row = pixels(y);
-    for (int x = 0; x < width(); ++x) buffers.columns[x] += row[x];
+int Integral::block_begin(int number) const {
+  return std::min(number * kBlockRows, height());
+}
+
+// The pixels of a block, and the sums of its columns.
+void Integral::load_block(int number, Buffers& buffers) {
+  std::uint16_t* columns = &columns_[static_cast<std::size_t>(number) * width()];
+  std::fill_n(columns, width(), std::uint16_t{0});
+  for (int y = block_begin(number); y < block_begin(number + 1); ++y) {
+    std::uint8_t* row = pixels(y);
+    fill_row(y, buffers.scratch.data(), row);
+    for (int x = 0; x < width(); ++x) columns[x] += row[x];
   }
-  await(blocks_begun_, number);
-  const std::uint32_t* above = levels_[0].row(begin) + 1;
-  std::uint32_t* last = levels_[0].row(end);
-  last[0] = 0;
-  std::uint32_t sum = 0;
-  for (int x = 0; x < width(); ++x) last[x + 1] = above[x] + (sum += buffers.columns[x]);
-  blocks_begun_.store(number + 1, std::memory_order_release);
-  for (int y = begin; y + 1 < end; ++y) sum_row(y, pixels(y));
+}
+
+// The last row of every block, from the sums of the columns: all sums need those above them.
+void Integral::sum_blocks() {
+  std::ranges::fill(above_, 0U);
+  for (int number = 0; number < blocks_; ++number) {
+    const std::uint16_t* columns = &columns_[static_cast<std::size_t>(number) * width()];
+    for (int x = 0; x < width(); ++x) above_[x] += columns[x];
+    std::uint32_t* last = levels_[0].row(block_begin(number + 1));
+    last[0] = 0;
+    std::partial_sum(above_.begin(), above_.end(), last + 1);
+  }
+}
+
+void Integral::sum_block(int number) {
+  const int end = block_begin(number + 1);
+  for (int y = block_begin(number); y + 1 < end; ++y) sum_row(y, pixels(y));
   fill_levels(end);
 }
 
@@ -128,11 +131,13 @@ void Integral::compute(const cv::Mat& grey, bool smooth, int levels, Team& team,
   prepare(grey, smooth, levels, threads);
   std::fill_n(levels_[0].row(0), width() + 1, 0U);
   fill_levels(0);
-  blocks_begun_ = 0;
-  if (blocks_ == 1)
+  if (blocks_ == 1) {
     sum_all(buffers_[0]);
-  else
-    team.share(threads, blocks_, [&](int part, int thread) { sum_block(part, buffers_[thread]); });
+  } else {
+    team.share(threads, blocks_, [&](int part, int thread) { load_block(part, buffers_[thread]); });
+    sum_blocks();
+    team.share(threads, blocks_, [&](int part, int) { sum_block(part); });
+  }
   grey_.release();
 }
 

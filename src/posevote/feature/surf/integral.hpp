@@ -1,7 +1,6 @@
 // Sums over rectangles of a picture in constant time (Bay et al. 2008, section 3.1).
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -51,8 +50,6 @@ class Integral {
   };
   // Of a thread.
   struct Buffers {
-    std::vector<std::uint8_t> pixels;    // of a block, or of one row
-    std::vector<std::uint16_t> columns;  // sums of the block's rows
     std::vector<std::uint16_t> scratch;
   };
 
@@ -61,15 +58,22 @@ class Integral {
   void fill_levels(int y);
   void sum_row(int y, const std::uint8_t* pixels);
   void sum_all(Buffers& buffers);
-  void sum_block(int number, Buffers& buffers);
+  [[nodiscard]] int block_begin(int number) const;
+  [[nodiscard]] std::uint8_t* pixels(int y) {
+    return &pixels_[static_cast<std::size_t>(y) * width()];
+  }
+  void load_block(int number, Buffers& buffers);
+  void sum_blocks();
+  void sum_block(int number);
 
   cv::Mat grey_;
   bool smooth_ = false;
   int blocks_ = 1;
-  std::atomic<int> blocks_begun_ =
-      0;  // the row of the sums above the block of this number is ready
   std::vector<Level> levels_ = std::vector<Level>(1);
   std::vector<Buffers> buffers_;
+  std::vector<std::uint8_t> pixels_;    // with margins: all rows where threads share, else one
+  std::vector<std::uint16_t> columns_;  // sums of each block's columns
+  std::vector<std::uint32_t> above_;    // sums of the columns above a row
 };
 
 }  // namespace posevote::surf

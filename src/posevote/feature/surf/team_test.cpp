@@ -3,7 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <stdexcept>
+#ifdef __linux__
+#include <sched.h>
+#endif
 
 namespace posevote::surf {
 namespace {
@@ -34,16 +39,53 @@ TEST(Team, NoTwoCallsOfOneThreadOverlap) {
     });
 }
 
-TEST(Team, PartsAreBegunInOrder) {
+TEST(Team, AThreadBeginsWithItsOwnStretch) {
   Team team;
-  std::atomic<int> begun = 0;
-  // A part may wait for the one before: somebody works on that already.
-  team.share(3, 100, [&](int part, int) {
-    while (begun < part) std::this_thread::yield();
-    ++begun;
+  std::array<std::atomic<int>, 2> first = {-1, -1};
+  // Nobody goes on before both have begun.
+  team.share(2, 100, [&](int part, int thread) {
+    int none = -1;
+    first[thread].compare_exchange_strong(none, part);
+    while (first[0] < 0 || first[1] < 0) std::this_thread::yield();
   });
-  EXPECT_EQ(begun, 100);
+  EXPECT_EQ(first[0], 0);
+  EXPECT_EQ(first[1], 50);
 }
+
+TEST(Team, NobodyIsHeldUpByASlowThread) {
+  Team team;
+  std::atomic<int> done = 0;
+  // The thread that begins with the second half stays with its first part until all else is done.
+  team.share(2, 100, [&](int part, int) {
+    while (part == 50 && done < 99) std::this_thread::yield();
+    ++done;
+  });
+  EXPECT_EQ(done, 100);
+}
+
+#ifdef __linux__
+// A caller that slept, as one that waits for a camera does: kernels wake the helper beside it.
+TEST(Team, HelpersWakeOnAnotherProcessorThanTheCallers) {
+  cpu_set_t allowed;
+  ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+  if (CPU_COUNT(&allowed) < 2) GTEST_SKIP() << "one processor only";
+  Team team;
+  constexpr int kTurns = 40;
+  int apart = 0;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::array<int, 2> processors = {-1, -1};
+    std::atomic<int> together = 0;
+    team.share(2, 2, [&](int, int thread) {
+      processors[thread] = sched_getcpu();
+      ++together;
+      while (together < 2) std::this_thread::yield();
+    });
+    apart += processors[0] != processors[1];
+  }
+  EXPECT_GE(apart, kTurns * 9 / 10);  // the caller may be moved in between
+}
+#endif
 
 TEST(Team, SeveralThreadsTakePart) {
   Team team;

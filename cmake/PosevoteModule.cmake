@@ -25,8 +25,14 @@ function(posevote_test TARGET)
   target_compile_definitions(${TARGET} PRIVATE
     POSEVOTE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" POSEVOTE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   posevote_compile_options(${TARGET})
+  posevote_test_options(${TARGET})
   posevote_precompile(${TARGET} TESTS)
   gtest_discover_tests(${TARGET} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 900)
+endfunction()
+
+# Tests take longer to optimise than they save by it; what they test is optimised all the same.
+function(posevote_test_options TARGET)
+  target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 function(posevote_compile_options TARGET)

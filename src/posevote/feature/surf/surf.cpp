@@ -15,7 +15,7 @@ namespace {
 
 int team_size(const SurfOptions& options) {
   if (options.threads > 0) return options.threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, Team::kMost);
 }
 
 // Pixel centres of the doubled picture lie at (x + 0.5) / 2 - 0.5 of the one given.

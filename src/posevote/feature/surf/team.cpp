@@ -60,13 +60,14 @@ int Team::count_done() const {
   return sum;
 }
 
-// Of the own stretch the first part, of another's the last.
+// Of the own stretch the first part, of another's the last. A thread that comes late may be one too
+// many for the step that it finds: what it reads after a ticket is no older than the ticket.
 void Team::take_parts(int thread) {
   const int threads = threads_.load(std::memory_order_relaxed);
   for (int i = 0; i < threads; ++i) {
     auto& stretch = stretches_[static_cast<std::size_t>((thread + i) % threads)].ticket;
     std::uint64_t ticket = stretch.load(std::memory_order_acquire);
-    while (begin_of(ticket) < end_of(ticket)) {
+    while (begin_of(ticket) < end_of(ticket) && thread < threads_.load(std::memory_order_relaxed)) {
       const std::uint64_t rest = i == 0 ? ticket + 1 : ticket - (std::uint64_t{1} << kBits);
       if (!stretch.compare_exchange_weak(ticket, rest, std::memory_order_acq_rel,
                                          std::memory_order_acquire))
@@ -81,7 +82,7 @@ void Team::serve(int thread) {
   for (unsigned turn = 0; !end_;) {
     await_change(turn_, turn);
     turn = turn_.load(std::memory_order_acquire);
-    if (thread < threads_.load(std::memory_order_relaxed)) take_parts(thread);
+    take_parts(thread);
   }
 }
 
@@ -111,13 +112,13 @@ void Team::make_room() {
 }
 
 void Team::share_with(int threads, int parts, const void* work, Call call) {
-  if (parts < 0 || static_cast<std::uint64_t>(parts) > kMask)
-    throw Error(ErrorCode::invalid_argument, "too many parts for a team");
+  if (threads > kMost || parts < 0 || static_cast<std::uint64_t>(parts) > kMask)
+    throw Error(ErrorCode::invalid_argument, "too many threads or parts for a team");
   work_ = work;
   call_ = call;
-  threads = std::min(threads, kMost);
   threads_.store(threads, std::memory_order_relaxed);
-  for (Count& done : done_) done.parts.store(0, std::memory_order_relaxed);
+  for (int thread = 0; thread < threads; ++thread)
+    done_[static_cast<std::size_t>(thread)].parts.store(0, std::memory_order_relaxed);
   ++step_;
   const auto end = [&](int thread) {
     return static_cast<std::uint64_t>(parts) * thread / static_cast<std::uint64_t>(threads);

@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "commands.hpp"
 #include "database.hpp"
+#include "posevote/core/arguments.hpp"
 #include "posevote/core/error.hpp"
 #include "settings.hpp"
 
@@ -61,11 +62,7 @@ void run(const BatchArguments& arguments) {
   // By the environment: arguments are there for every user of the machine to see.
   setenv("POSEVOTE_DB", database_path(arguments.database).c_str(), 1);
   std::vector<std::string> words = words_of(arguments);
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  execv(POSEVOTE_PYTHON, pointers.data());
+  execv(POSEVOTE_PYTHON, argv_of(words).data());
   throw Error(ErrorCode::unsupported,
               std::string("cannot run " POSEVOTE_PYTHON ", which batch needs: ") +
                   std::strerror(errno) + "; install python3 and python3-posevote");

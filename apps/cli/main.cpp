@@ -7,6 +7,7 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "command.hpp"
+#include "posevote/core/arguments.hpp"
 #include "posevote/core/error.hpp"
 #include "posevote/core/options.hpp"
 #include "posevote/store/address.hpp"
@@ -88,10 +89,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::vector<std::string> arguments = posevote::take_arguments(argc, argv);
-  std::vector<char*> words;
-  words.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) words.push_back(argument.data());
-  words.push_back(nullptr);
+  std::vector<char*> words = posevote::argv_of(arguments);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error to tell, not to die of
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "posevote/core/arguments.hpp"
 #include "posevote/json/recognition_json.hpp"
 #include "program.hpp"
 
@@ -64,11 +65,9 @@ class BatchCommand : public Program {
     const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
     if (child == 0) {
       setenv("POSEVOTE_DB", database().c_str(), 1);
-      std::vector<char*> words{const_cast<char*>(POSEVOTE_PROGRAM)};
-      for (const std::string& argument : arguments)
-        words.push_back(const_cast<char*>(argument.c_str()));
-      words.push_back(nullptr);
-      execv(POSEVOTE_PROGRAM, words.data());
+      std::vector<std::string> words{POSEVOTE_PROGRAM};
+      words.insert(words.end(), arguments.begin(), arguments.end());
+      execv(POSEVOTE_PROGRAM, argv_of(words).data());
       _exit(127);
     }
     std::string shown;

@@ -13,6 +13,8 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "posevote/core/arguments.hpp"
+
 namespace posevote {
 namespace {
 
@@ -31,11 +33,9 @@ int open_program() {
   dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode), STDOUT_FILENO);
   dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode), STDERR_FILENO);
   setenv("POSEVOTE_DB", database.c_str(), 1);
-  std::vector<char*> words{const_cast<char*>(POSEVOTE_PROGRAM)};
-  for (const std::string& argument : arguments)
-    words.push_back(const_cast<char*>(argument.c_str()));
-  words.push_back(nullptr);
-  fexecve(program, words.data(), environ);
+  std::vector<std::string> words{POSEVOTE_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  fexecve(program, argv_of(words).data(), environ);
   _exit(127);
 }
 

@@ -12,6 +12,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "posevote/core/arguments.hpp"
+
 namespace posevote {
 namespace {
 
@@ -42,10 +44,7 @@ ServerProcess::ServerProcess(const std::string& folder, const std::vector<std::s
       words.insert(words.end(), {option, value});
   const auto tls = std::ranges::find(arguments, "--tls-cert");
   if (tls != arguments.end() && tls + 1 != arguments.end()) certificate_ = tls[1];
-  std::vector<char*> argv;
-  argv.reserve(words.size() + 1);
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+  const std::vector<char*> argv = argv_of(words);
   const std::string out = folder + "/out.txt", err = folder + "/err.txt";
   fs::remove(out);
   pid_ = fork();

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "posevote/core/arguments.hpp"
+
 namespace posevote {
 namespace {
 
@@ -57,9 +59,7 @@ TEST(Address, ArgumentsAreTakenAndOverwritten) {
   std::vector<std::string> given{"program", "--db", "postgresql://robot:it's a?b@host/db", "x",
                                  "postgresql://a:b@c"};
   const std::vector<std::string> expected = given;
-  std::vector<char*> argv;
-  argv.reserve(given.size());
-  for (std::string& word : given) argv.push_back(word.data());
+  std::vector<char*> argv = argv_of(given);
   EXPECT_EQ(take_arguments(5, argv.data()), expected);
   EXPECT_STREQ(argv[2], "postgresql://robot:***@host/db");
   EXPECT_STREQ(argv[3], "x");

@@ -111,7 +111,7 @@ void Program::expect_failure(const Outcome& outcome, int status,
 }
 
 std::string Program::demo(const std::string& name) {
-  return std::string(POSEVOTE_SOURCE_DIR) + "/data/demo/" + name;
+  return POSEVOTE_SOURCE_DIR "/data/demo/" + name;
 }
 
 std::string Program::write(const std::string& name, const std::string& data) const {

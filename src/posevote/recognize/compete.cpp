@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "posevote/recognize/overlap.hpp"
@@ -114,8 +113,8 @@ std::vector<char> features_taken(const Claim& claim, const std::vector<Claim>& b
 
 /// Several views of an object explain the same features. The features say which object it is;
 /// where it is they say together: of those with a good part of the strongest one's evidence, the
-/// one that is most probably in its place, and whose box overlaps most with what the others claim,
-/// goes first. A view that was found twice there speaks once. `claims` are sorted, best first.
+/// one whose box overlaps most with what the others claim, each as far as it is probable, goes
+/// first. `claims` are sorted, best first.
 void prefer_best_placed(std::vector<Claim>& claims) {
   constexpr double kPart = 0.6;  // of the strongest one's digits
   const auto probability = [](const Claim& claim) {
@@ -129,20 +128,15 @@ void prefer_best_placed(std::vector<Claim>& claims) {
       if (other->object == first->object && other->region.share_in(first->region) >= 0.5)
         same.push_back(static_cast<std::size_t>(other - claims.begin()));
     }
-    const auto placement = [&](std::size_t one) {
-      std::map<int, double> overlap_of;  // by view
-      for (const std::size_t other : same) {
-        double& most = overlap_of[claims[other].hypothesis.view];
-        most = std::max(most,
-                        probability(claims[other]) * overlap(claims[one].box, claims[other].box));
-      }
+    const auto expected_overlap = [&](std::size_t one) {
       double sum = 0;
-      for (const auto& [view, most] : overlap_of) sum += most;
-      return probability(claims[one]) * sum;
+      for (const std::size_t other : same)
+        sum += probability(claims[other]) * overlap(claims[one].box, claims[other].box);
+      return sum;
     };
     if (same.empty()) continue;
     const auto best =
-        claims.begin() + static_cast<std::ptrdiff_t>(std::ranges::max(same, {}, placement));
+        claims.begin() + static_cast<std::ptrdiff_t>(std::ranges::max(same, {}, expected_overlap));
     std::rotate(first, best, best + 1);
   }
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <vector>
 
 namespace posevote::bench {
 namespace {
@@ -24,6 +25,11 @@ struct Axis {
     low = std::pow(10, std::floor(std::log10(low)));
     high = std::pow(10, std::ceil(std::log10(high)));
     if (high <= low) high = 10 * low;
+  }
+  [[nodiscard]] std::vector<double> powers_of_ten() const {
+    std::vector<double> powers{low};
+    while (powers.back() * 10 <= high * 1.01) powers.push_back(powers.back() * 10);
+    return powers;
   }
   [[nodiscard]] double share(double v) const { return std::log(v / low) / std::log(high / low); }
 };
@@ -55,11 +61,11 @@ void draw_axes(std::ostream& out, const Panel& panel, const std::string& x_title
                const Axis& y) {
   text(out, 0, -12, "start", panel.title);
   text(out, kWidth / 2, kHeight + 38, "middle", x_title);
-  for (double v = x.low; v <= x.high * 1.01; v *= 10) {
+  for (const double v : x.powers_of_ten()) {
     line(out, kWidth * x.share(v), 0, kWidth * x.share(v), kHeight, "#ddd");
     text(out, kWidth * x.share(v), kHeight + 18, "middle", number(v));
   }
-  for (double v = y.low; v <= y.high * 1.01; v *= 10) {
+  for (const double v : y.powers_of_ten()) {
     const double height = kHeight * (1 - y.share(v));
     line(out, 0, height, kWidth, height, "#ddd");
     text(out, -8, height + 4, "end", number(v));

@@ -1,8 +1,8 @@
-# posevote_precompile(TARGET TESTS|LIBRARY): with POSEVOTE_PRECOMPILE, for everything or for the kind
-# that it names, the headers that most files of that kind read are compiled once, for builds that are
-# to be soon there. Other builds leave it out: it hides a header that is missing in a file.
+# posevote_precompile(TARGET TESTS|LIBRARY): with POSEVOTE_PRECOMPILE the headers that most files of
+# that kind read are compiled once, for builds that are to be soon there. Other builds leave it out:
+# it hides a header that is missing in a file.
 function(posevote_precompile TARGET KIND)
-  if(NOT POSEVOTE_PRECOMPILE OR (POSEVOTE_PRECOMPILE STREQUAL "TESTS" AND NOT KIND STREQUAL "TESTS"))
+  if(NOT POSEVOTE_PRECOMPILE)
     return()
   endif()
   set(host posevote_precompiled_${KIND})
@@ -22,9 +22,6 @@ function(posevote_precompile TARGET KIND)
       <algorithm> <filesystem> <fstream> <functional> <map> <memory> <string> <vector>
       <opencv2/core.hpp> <opencv2/imgproc.hpp>)
     posevote_compile_options(${host})
-    if(KIND STREQUAL TESTS)
-      posevote_test_options(${host})
-    endif()
   endif()
   target_precompile_headers(${TARGET} REUSE_FROM ${host})
 endfunction()

@@ -46,7 +46,11 @@ class TeachSessionTest : public testing::Test {
       }
       ended = true;
     });
-    for (double before = 0; idle_s >= before && !ended; idle_s = session_.idle_s()) before = idle_s;
+    double before = 0;
+    while (idle_s >= before && !ended) {
+      before = idle_s;
+      idle_s = session_.idle_s();
+    }
     return looking;
   }
 

@@ -32,8 +32,10 @@ View board(double yaw_deg = std::nan("")) {
 Detection seen(const View& view, const Pose& plane, const Camera& by, double noise_px = 0) {
   std::vector<cv::Point3d> points;
   Detection detection;
-  for (float y = 55; y < 149; y += 15)
-    for (float x = 55; x < 249; x += 15) {
+  for (int row = 0; row < 7; ++row)
+    for (int column = 0; column < 13; ++column) {
+      const float x = 55.F + 15 * static_cast<float>(column),
+                  y = 55.F + 15 * static_cast<float>(row);
       detection.matches.push_back({{x, y}, {}});
       points.emplace_back((x - view.centre.x) * 1e-3, (y - view.centre.y) * 1e-3, 0);
     }
@@ -176,7 +178,10 @@ TEST(FindPose, PutsTheOutlineWhereTheObjectIs) {
 
 TEST(FindPose, GivesNothingForPointsOnALine) {
   Detection line;
-  for (float i = 0; i < 10; ++i) line.matches.push_back({{60 + i, 60 + i}, {i, i}});
+  for (int k = 0; k < 10; ++k) {
+    const auto i = static_cast<float>(k);
+    line.matches.push_back({{60 + i, 60 + i}, {i, i}});
+  }
   EXPECT_FALSE(find_pose(line, board(), 0.1, camera()));
 }
 

@@ -131,7 +131,8 @@ Agreement find_agreement(const std::vector<Correspondence>& matches, double turn
   best.cost = static_cast<double>(matches.size());
   cv::RNG random(1);
   std::vector<cv::Point2d> lines(matches.size());
-  for (double tilt_deg = -10; tilt_deg <= 60; tilt_deg += 5) {
+  for (int step = -2; step <= 12; ++step) {
+    const double tilt_deg = 5 * step;
     const PairModel model(turn_deg, tilt_deg);
     std::transform(matches.begin(), matches.end(), lines.begin(), [&](const Correspondence& m) {
       return cv::Point2d(model.across.dot(model.moved(m.here)), model.across.dot(m.there));

@@ -113,8 +113,8 @@ std::vector<double> round_ticks(double min, double max, int count) {
   for (const double factor : {5.0, 2.0, 1.0})
     if (factor * power >= raw * (1 - 1e-9)) step = factor * power;
   std::vector<double> ticks;
-  for (double i = std::ceil(min / step - 1e-9); i * step <= max + 1e-9 * step; ++i)
-    ticks.push_back(i * step);
+  const double first = std::ceil(min / step - 1e-9), last = std::floor(max / step + 1e-9);
+  for (int i = 0; i <= last - first; ++i) ticks.push_back((first + i) * step);
   return ticks;
 }
 

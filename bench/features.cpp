@@ -10,8 +10,9 @@
 // else the machine's memory bandwidth and our peak memory at 8 megapixels. The rows "default" are
 // what recognition does with a picture of that size, the picture doubled where it is small.
 //
-// A second table compares two threads for one picture with one thread, and with what two threads
-// that do not know of each other get done, a picture each: that is what the machine gives to two.
+// A second table compares two threads for one picture with one thread, back to back and after a
+// pause, and with what two threads that do not know of each other get done, a picture each: that is
+// what the machine gives to two.
 #include <dlib/image_keypoint.h>
 #include <dlib/opencv.h>
 #include <sys/resource.h>

@@ -12,6 +12,7 @@ function(posevote_precompile TARGET KIND)
       file(CONFIGURE OUTPUT ${source} CONTENT "int main() {}\n")
       add_executable(${host} ${source})
       target_link_libraries(${host} PRIVATE ${OpenCV_LIBS} GTest::gmock)
+      posevote_test_options(${host}) # else the tests cannot use what it compiles
       target_precompile_headers(${host} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
     else()
       file(CONFIGURE OUTPUT ${source} CONTENT "namespace posevote {}\n")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace posevote::surf {
 namespace {
@@ -66,9 +67,9 @@ void BlobSearch::cut_into_blocks(int threads) {
   }
   by_place_.resize(blocks_used_);
   std::iota(by_place_.begin(), by_place_.end(), 0);
-  std::ranges::stable_sort(by_place_, {}, [&](int b) {
+  std::ranges::sort(by_place_, {}, [&](int b) {  // std::stable_sort would allocate
     const Block& block = blocks_[b];
-    return (block.begin + block.end) << block.octave;
+    return std::pair((block.begin + block.end) << block.octave, b);
   });
 }
 

@@ -21,6 +21,10 @@ void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size ? size : 1)) return memory;
   throw std::bad_alloc();
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(size ? size : 1);
+}
 // Not inlined, so that the compiler does not see a `free` of what came from `new`.
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);

@@ -38,7 +38,7 @@ void await_change(const std::atomic<unsigned>& value, unsigned old) {
 
 Team::~Team() {
   end_ = true;
-  turn_.fetch_add(1, std::memory_order_release);
+  turn_.fetch_add(1);
   turn_.notify_all();
   for (std::thread& helper : helpers_) helper.join();
 }
@@ -92,7 +92,7 @@ void Team::wake(int threads) {
   while (static_cast<int>(helpers_.size()) < threads - 1)
     helpers_.emplace_back(&Team::serve, this, static_cast<int>(helpers_.size()) + 1);
   make_room();
-  turn_.fetch_add(1, std::memory_order_release);
+  turn_.fetch_add(1);
   turn_.notify_all();
 }
 

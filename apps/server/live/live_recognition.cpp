@@ -108,10 +108,13 @@ void LiveRecognition::remember(std::shared_ptr<const LiveFrame> frame) {
 }
 
 std::shared_ptr<const LiveResult> LiveRecognition::newest() const {
-  const bool running =
-      camera_.status().state == CameraState::running && settings_.options().live.recognize;
+  if (!settings_.options().live.recognize) return nullptr;
+  const CameraState state = camera_.status().state;
+  const auto frame = camera_.newest();
   const std::lock_guard lock(mutex_);
-  return running ? newest_ : nullptr;
+  const bool waits_with_it =
+      state == CameraState::waiting && newest_ && frame.get() == &newest_->frame();
+  return state == CameraState::running || waits_with_it ? newest_ : nullptr;
 }
 
 std::shared_ptr<const LiveFrame> LiveRecognition::recent(std::int64_t number) const {

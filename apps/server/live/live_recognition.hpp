@@ -45,7 +45,8 @@ class LiveRecognition {
   /// Ends when the frame in hand is done.
   void stop();
 
-  /// Null before the first result, and when the camera is lost or recognition is switched off.
+  /// Null before the first result, and when the camera is lost or recognition is switched off. From
+  /// a client that fell silent the result of the last frame is shown as long as the frame is.
   [[nodiscard]] std::shared_ptr<const LiveResult> newest() const;
   /// The frame of that number, if it was among the last that were recognised.
   [[nodiscard]] std::shared_ptr<const LiveFrame> recent(std::int64_t number) const;

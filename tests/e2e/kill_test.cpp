@@ -67,6 +67,7 @@ class Kill : public Program {
       if (entry.path().filename().string().starts_with("y"))
         arguments.push_back(entry.path().string());
     std::sort(arguments.begin() + 2, arguments.end());
+    arguments.resize(2 + 4);  // views enough to be killed within, before, between and after
     arguments.insert(arguments.end(), {"--whole", "--brief"});
     return arguments;
   }

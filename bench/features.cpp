@@ -10,9 +10,9 @@
 // else the machine's memory bandwidth and our peak memory at 8 megapixels. The rows "default" are
 // what recognition does with a picture of that size, the picture doubled where it is small.
 //
-// A second table compares two threads for one picture with one thread, back to back and after a
-// pause, and with what two threads that do not know of each other get done, a picture each: that is
-// what the machine gives to two.
+// A second table compares two threads for one picture with one thread, on frames one after another
+// as of a video, and on one after a pause as of a camera; and with what two threads that do not
+// know of each other get done, a picture each: that is what the machine gives to two.
 #include <dlib/image_keypoint.h>
 #include <dlib/opencv.h>
 #include <sys/resource.h>
@@ -197,48 +197,66 @@ void compare(const cv::Mat& picture, const Case& of, double bandwidth, int round
   std::fflush(stdout);
 }
 
+constexpr int kFrames = 8;
 constexpr std::chrono::milliseconds kPause(5);
 
-// In turns: one thread, two threads, both again after a pause as a camera makes it, and two
-// pictures at once with a thread each.
+void repeat(const std::function<void()>& action) {
+  for (int frame = 0; frame < kFrames; ++frame) action();
+}
+
+// Of each of some frames of a video: the one before them has just been done.
+double time_of_frame(const std::function<void()>& action) {
+  action();
+  return time_of([&] { repeat(action); }).wall / kFrames;
+}
+
+double time_after_pause(const std::function<void()>& action) {
+  std::this_thread::sleep_for(kPause);
+  return time_of(action).wall;
+}
+
+// In turns: frames on one thread, on two threads, both again after a pause, and frames of two
+// videos with a thread each.
 void compare_threads(const cv::Mat& picture, const Case& of, int rounds) {
   auto two = of.options;
   two.surf.threads = 2;
   Workspace single, shared, other;
-  Series ones, twos, rested_ones, rested_twos, pairs;
+  const auto on_one = [&] { (void)single.extract(picture, {}, of.options); };
+  const auto on_two = [&] { (void)shared.extract(picture, {}, two); };
+  const auto on_another = [&] { (void)other.extract(picture, {}, of.options); };
+  std::vector<double> ones, twos, rested_ones, rested_twos, pairs;
   std::vector<StageTimes> one_stages, two_stages;
   for (int round = -1; round < rounds; ++round) {
-    const auto one = time_of([&] { (void)single.extract(picture, {}, of.options); });
+    const double one = time_of_frame(on_one);
     const StageTimes one_times = single.times();
-    const auto both = time_of([&] { (void)shared.extract(picture, {}, two); });
+    const double both = time_of_frame(on_two);
     const StageTimes two_times = shared.times();
-    std::this_thread::sleep_for(kPause);
-    const auto rested_one = time_of([&] { (void)single.extract(picture, {}, of.options); });
-    std::this_thread::sleep_for(kPause);
-    const auto rested_both = time_of([&] { (void)shared.extract(picture, {}, two); });
+    const double rested_one = time_after_pause(on_one), rested_both = time_after_pause(on_two);
     std::latch awake(2);
     std::thread beside([&] {
+      on_another();
       awake.arrive_and_wait();
-      (void)other.extract(picture, {}, of.options);
+      repeat(on_another);
     });
+    on_one();
     awake.arrive_and_wait();
     const auto pair = time_of([&] {
-      (void)single.extract(picture, {}, of.options);
+      repeat(on_one);
       beside.join();
     });
     if (round < 0) continue;
-    ones.add(one);
-    twos.add(both);
-    rested_ones.add(rested_one);
-    rested_twos.add(rested_both);
-    pairs.add(pair);
+    ones.push_back(one);
+    twos.push_back(both);
+    rested_ones.push_back(rested_one);
+    rested_twos.push_back(rested_both);
+    pairs.push_back(pair.wall / kFrames);
     one_stages.push_back(one_times);
     two_stages.push_back(two_times);
   }
   std::printf("%4dx%-4d %-7s %6d | %7.2f %7.2f %7.2f | %4.2f %4.2f %4.2f |", picture.cols,
-              picture.rows, of.name.c_str(), of.options.max_features, median(ones.wall),
-              median(twos.wall), median(pairs.wall), ratio(ones.wall, twos.wall),
-              ratio(rested_ones.wall, rested_twos.wall), 2 * ratio(ones.wall, pairs.wall));
+              picture.rows, of.name.c_str(), of.options.max_features, median(ones), median(twos),
+              median(pairs), ratio(ones, twos), ratio(rested_ones, rested_twos),
+              2 * ratio(ones, pairs));
   for (const auto field : {&StageTimes::integral, &StageTimes::hessian, &StageTimes::suppression,
                            &StageTimes::orientation, &StageTimes::descriptor})
     std::printf(" %4.2f", ratio(column(one_stages, field), column(two_stages, field)));
@@ -305,8 +323,8 @@ void run(const std::filesystem::path& folder, const std::string& file, int round
     compare_with_others(pictures, rounds);
   }
   std::printf(
-      "\nms, and how many times as much is done: two threads for one picture, the same after a "
-      "pause as a camera makes it, two that each have a picture of their own\n"
+      "\nms a frame of a video, and how many times as much is done: two threads for one frame, the "
+      "same after a pause as a camera makes it, two that each have a video of their own\n"
       "%-17s %6s | %7s %7s %7s | %4s %4s %4s | stages as above, two threads\n",
       "size", "wanted", "one", "two", "2 apart", "two", "cam.", "2 a.");
   for (const cv::Mat& picture : pictures)

@@ -49,7 +49,7 @@ class Team {
   /// Calls `work(begin, end)` for ranges that make up [0, total).
   template <class Work>
   void share_ranges(int threads, int total, const Work& work) {
-    constexpr int kLeast = 32;
+    constexpr int kLeast = 16;
     if (threads == 1) return work(0, total);
     const int parts = std::clamp(total / kLeast, std::min(total, 1), 16 * threads);
     const auto begin = [&](int part) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "posevote/recognize/overlap.hpp"
@@ -20,10 +21,14 @@ class Region {
     }
     cv::convexHull(points_, hull_);
     reach_ = hypothesis.tolerance_px;
+    const auto reach = static_cast<float>(reach_);
+    surroundings_ = cv::boundingRect(hull_);
+    surroundings_ += cv::Size2f(2 * reach, 2 * reach);
+    surroundings_ -= cv::Point2f(reach, reach);
   }
 
   [[nodiscard]] bool contains(cv::Point2f point) const {
-    return cv::pointPolygonTest(hull_, point, true) >= -reach_;
+    return surroundings_.contains(point) && cv::pointPolygonTest(hull_, point, true) >= -reach_;
   }
   /// Share of this region's own matches that lie in the other.
   [[nodiscard]] double share_in(const Region& other) const {
@@ -40,6 +45,7 @@ class Region {
  private:
   std::vector<cv::Point2f> points_, hull_;
   double reach_ = 0;
+  cv::Rect2f surroundings_;  ///< contains whatever the region contains
 };
 
 /// A hypothesis that was kept, with what it claims of the scene.
@@ -113,8 +119,8 @@ std::vector<char> features_taken(const Claim& claim, const std::vector<Claim>& b
 
 /// Several views of an object explain the same features. The features say which object it is;
 /// where it is they say together: of those with a good part of the strongest one's evidence, the
-/// one whose box overlaps most with what the others claim, each as far as it is probable, goes
-/// first. `claims` are sorted, best first.
+/// one that is most probably in its place, and whose box overlaps most with what the others claim,
+/// goes first. A view that was found twice there speaks once. `claims` are sorted, best first.
 void prefer_best_placed(std::vector<Claim>& claims) {
   constexpr double kPart = 0.6;  // of the strongest one's digits
   const auto probability = [](const Claim& claim) {
@@ -128,15 +134,20 @@ void prefer_best_placed(std::vector<Claim>& claims) {
       if (other->object == first->object && other->region.share_in(first->region) >= 0.5)
         same.push_back(static_cast<std::size_t>(other - claims.begin()));
     }
-    const auto expected_overlap = [&](std::size_t one) {
+    const auto placement = [&](std::size_t one) {
+      std::map<int, double> overlap_of;  // by view
+      for (const std::size_t other : same) {
+        double& most = overlap_of[claims[other].hypothesis.view];
+        most = std::max(most,
+                        probability(claims[other]) * overlap(claims[one].box, claims[other].box));
+      }
       double sum = 0;
-      for (const std::size_t other : same)
-        sum += probability(claims[other]) * overlap(claims[one].box, claims[other].box);
-      return sum;
+      for (const auto& [view, most] : overlap_of) sum += most;
+      return probability(claims[one]) * sum;
     };
     if (same.empty()) continue;
     const auto best =
-        claims.begin() + static_cast<std::ptrdiff_t>(std::ranges::max(same, {}, expected_overlap));
+        claims.begin() + static_cast<std::ptrdiff_t>(std::ranges::max(same, {}, placement));
     std::rotate(first, best, best + 1);
   }
 }

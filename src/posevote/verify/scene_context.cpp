@@ -2,36 +2,46 @@
 
 #include <algorithm>
 
-#include "posevote/index/codes.hpp"
 #include "posevote/index/dots.hpp"
 
 namespace posevote {
-namespace {
-
-/// The `rank`-th smallest, where rank is small; `smallest` is room to work in.
-float nth_smallest(const std::vector<float>& values, std::size_t rank,
-                   std::vector<float>& smallest) {
-  smallest.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank));
-  std::ranges::sort(smallest);
-  for (std::size_t i = rank; i < values.size(); ++i) {
-    if (!(values[i] < smallest.back())) continue;
-    smallest.pop_back();
-    smallest.insert(std::ranges::upper_bound(smallest, values[i]), values[i]);
-  }
-  return smallest.back();
-}
-
-}  // namespace
-
 SceneRivals::SceneRivals(const ModelSet& models, const Features& scene, int rank)
-    : models_(models),
-      dimension_(static_cast<std::size_t>(scene.descriptors.cols)),
-      distances_(models.views().size()) {
+    : models_(models), coder_(scene.descriptors.cols), distances_(models.views().size()) {
   constexpr int kSample = 1000;  // the strongest; enough to tell common from rare
   const int count = std::min(kSample, static_cast<int>(scene.size()));
-  for (int s = 0; s < count; ++s) rows_.push_back(scene.descriptors.ptr<float>(s));
   rank_ = static_cast<std::size_t>(std::min(rank, count));
-  to_all_.resize(rows_.size());
+  const auto blocks = (static_cast<std::size_t>(count) + kBlockLanes - 1) / kBlockLanes;
+  codes_.resize(blocks * coder_.block_bytes());
+  query_.resize(coder_.quads() * 4);
+  products_.resize(blocks * kBlockLanes);
+  positions_.resize(products_.size());
+  for (std::size_t s = 0; s < static_cast<std::size_t>(count); ++s) {
+    rows_.push_back(scene.descriptors.ptr<float>(static_cast<int>(s)));
+    coder_.encode_taught(rows_[s], nullptr, kUnitScale,
+                         &codes_[s / kBlockLanes * coder_.block_bytes()], s % kBlockLanes);
+  }
+}
+
+// The nearest few by their codes are measured.
+float SceneRivals::nth_distance(const float* taught) {
+  constexpr std::size_t kAtLeast = 4;  // times the rank
+  coder_.encode_query(taught, query_.data());
+  dots(codes_.data(), products_.size() / kBlockLanes, coder_.quads(), {{query_.data()}, 1},
+       products_.data(), products_.size());
+  const std::int16_t limit =
+      kth_largest(products_.data(), products_.size(), std::min(kAtLeast * rank_, products_.size()));
+  const std::size_t found =
+      find_at_least(products_.data(), products_.size(), limit, positions_.data());
+  chosen_.clear();
+  for (std::size_t i = 0; i < found; ++i)
+    if (positions_[i] < rows_.size()) chosen_.push_back(rows_[positions_[i]]);
+  if (chosen_.size() < rank_) chosen_ = rows_;  // lanes without a row took their places
+  nearest_.resize(chosen_.size());
+  distances(taught, chosen_.data(), chosen_.size(), static_cast<std::size_t>(coder_.dimension()),
+            nearest_.data());
+  const auto nth = nearest_.begin() + static_cast<std::ptrdiff_t>(rank_) - 1;
+  std::ranges::nth_element(nearest_, nth);
+  return *nth;
 }
 
 Reference SceneRivals::reference(int view, int feature) {
@@ -39,10 +49,7 @@ Reference SceneRivals::reference(int view, int feature) {
   if (of_view.empty())
     of_view.assign(models_.views()[static_cast<std::size_t>(view)].view->features.size(), -1.F);
   float& distance = of_view[static_cast<std::size_t>(feature)];
-  if (distance < 0) {
-    distances(taught_row(view, feature), rows_.data(), rows_.size(), dimension_, to_all_.data());
-    distance = nth_smallest(to_all_, rank_, nearest_);
-  }
+  if (distance < 0) distance = nth_distance(taught_row(view, feature));
   return {distance, static_cast<double>(rank_) / static_cast<double>(rows_.size())};
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "posevote/index/codes.hpp"
 #include "posevote/match/matcher.hpp"
 #include "posevote/model/model_set.hpp"
 #include "posevote/verify/agreement.hpp"
@@ -26,11 +27,20 @@ class SceneRivals {
   [[nodiscard]] const float* taught_row(int view, int feature);
 
  private:
+  [[nodiscard]] float nth_distance(const float* taught);
+
   const ModelSet& models_;
   std::vector<const float*> rows_;  ///< descriptors of the scene
-  std::size_t dimension_, rank_;
+  std::size_t rank_;
+  Coder coder_;
+  std::vector<std::uint8_t> codes_;            ///< of the rows, as `dots` reads them
   std::vector<std::vector<float>> distances_;  ///< by view and feature; negative: not computed yet
-  std::vector<float> to_all_, nearest_, row_;  ///< buffers
+  // Buffers.
+  std::vector<float> row_, nearest_;
+  std::vector<std::int8_t> query_;
+  std::vector<std::int16_t> products_;
+  std::vector<std::uint32_t> positions_;
+  std::vector<const float*> chosen_;
 };
 
 /// References only: what they name must outlive it.

@@ -4,6 +4,7 @@
 
 #include "posevote/evaluate/statistics.hpp"
 #include "posevote/evaluate/table.hpp"
+#include "posevote/render/annotate.hpp"
 
 namespace posevote::cli {
 namespace {
@@ -57,14 +58,14 @@ std::vector<double> column(const std::vector<Record>& records, Field field) {
 
 std::string picture_table(const std::string& path, const RecognitionResult& result) {
   Table found;
-  found.header = {"object", "confidence", "inliers", "where (x, y, size)", "view"};
+  found.header = {"object", "sure", "confidence", "inliers", "where (x, y, size)", "view"};
   for (const Detection& detection : result.detections)
-    found.rows.push_back({name_of(detection), percent(detection.confidence, 0),
-                          std::to_string(detection.inliers), place_of(detection.box),
-                          detection.view});
+    found.rows.push_back({name_of(detection), detection.probability > 0 ? sureness(detection) : "",
+                          percent(detection.confidence, 0), std::to_string(detection.inliers),
+                          place_of(detection.box), detection.view});
   for (const UnknownRegion& region : result.unknown)
-    found.rows.push_back(
-        {"(unknown)", "", std::to_string(region.features) + " features", place_of(region.box), ""});
+    found.rows.push_back({"(unknown)", "", "", std::to_string(region.features) + " features",
+                          place_of(region.box), ""});
   Table time;
   time.header = {"step", "time", "features"};
   for (const Step& step : steps)
@@ -86,7 +87,7 @@ std::string frame_line(const Moment& moment, const RecognitionResult& result) {
   line += result.incomplete ? " (out of time):" : ":";
   if (result.detections.empty()) line += " nothing";
   for (const Detection& detection : result.detections)
-    line += "  " + name_of(detection) + " " + percent(detection.confidence, 0) + " at " +
+    line += "  " + name_of(detection) + " " + sureness(detection) + " at " +
             place_of(detection.box) + ";";
   return line + "\n";
 }

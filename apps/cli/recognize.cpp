@@ -243,7 +243,9 @@ void add_recognize(CLI::App& app, CommandContext& context) {
                   "  posevote recognize clip.mp4 --every 10\n"
                   "  posevote recognize clip.mp4 --live    as it plays: frames that come too "
                   "early are dropped\n"
-                  "  posevote recognize camera:0    until interrupted; always the newest frame");
+                  "  posevote recognize camera:0    until interrupted; always the newest frame\n\n"
+                  "In the table, sure is the probability that the object is there, in that place; "
+                  "confidence is the share\nof the features in its area that match it.");
   RecognizeArguments& a = *arguments;
   command
       ->add_option("INPUT", a.inputs,

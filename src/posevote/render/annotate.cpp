@@ -38,12 +38,6 @@ Polygon fixed_polygon(const std::vector<cv::Point2f>& outline) {
   return polygon;
 }
 
-/// The calibrated probability; where none is computed, Eq. 11. Nothing is quite certain.
-std::string sureness(const Detection& detection) {
-  const double share = detection.probability > 0 ? detection.probability : detection.confidence;
-  return share > 0.99 ? "> 99 %" : std::to_string(std::lround(100 * share)) + " %";
-}
-
 std::string label_text(const Detection& detection) {
   std::string names = detection.object;
   for (const std::string& other : detection.alternatives) names += " or " + other;
@@ -139,6 +133,11 @@ class Painter {
 };
 
 }  // namespace
+
+std::string sureness(const Detection& detection) {
+  const double share = detection.probability > 0 ? detection.probability : detection.confidence;
+  return share > 0.99 ? "> 99 %" : std::to_string(std::lround(100 * share)) + " %";
+}
 
 cv::Scalar object_color(const std::string& name) {
   // Hues far apart from each other, readable on most pictures.

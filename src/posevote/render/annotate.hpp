@@ -15,12 +15,16 @@ struct AnnotateOptions {
   std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 };
 
-/// A BGR 8-bit copy of `image` (1, 3 or 4 channels of 8 or 16 bits) with outline, name, confidence
+/// A BGR 8-bit copy of `image` (1, 3 or 4 channels of 8 or 16 bits) with outline, name, sureness
 /// and matched key points of every detection, and a plain frame about unknown parts. An object has
 /// the same colour in every picture. Sizes of lines and letters follow the picture's size.
 /// Detections outside the picture do no harm.
 [[nodiscard]] cv::Mat annotate(const cv::Mat& image, const RecognitionResult& result,
                                const AnnotateOptions& options = {});
+
+/// The calibrated probability as people read it, "97 %"; where none was computed, Eq. 11's share.
+/// Nothing is quite certain: at most "> 99 %".
+[[nodiscard]] std::string sureness(const Detection& detection);
 
 /// The colour (BGR) that stands for an object of that name.
 [[nodiscard]] cv::Scalar object_color(const std::string& name);

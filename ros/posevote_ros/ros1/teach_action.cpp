@@ -6,10 +6,19 @@
 #include "ros1/node.hpp"
 
 namespace posevote::ros1 {
+namespace {
+
+ros::NodeHandle with_queue(ros::NodeHandle nh, ros::CallbackQueue& queue) {
+  nh.setCallbackQueue(&queue);
+  return nh;
+}
+
+}  // namespace
+
 TeachAction::TeachAction(ros::NodeHandle private_nh, Node& node)
     : node_(node),
       server_(
-          private_nh, "teach",
+          with_queue(private_nh, queue_), "teach",
           [this](const posevote_msgs::TeachGoalConstPtr& goal) { execute(goal); }, false) {
   using Capture = posevote_msgs::Capture;
   const boost::function<bool(Capture::Request&, Capture::Response&)> capture =
@@ -23,9 +32,11 @@ TeachAction::TeachAction(ros::NodeHandle private_nh, Node& node)
       };
   capture_service_ = private_nh.advertiseService("capture", capture);
   server_.start();
+  spinner_.start();
 }
 
 TeachAction::~TeachAction() {
+  spinner_.stop();
   server_.shutdown();
 }
 

@@ -4,6 +4,7 @@
 #include <actionlib/server/simple_action_server.h>
 #include <posevote_msgs/Capture.h>
 #include <posevote_msgs/TeachAction.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <atomic>
@@ -31,7 +32,11 @@ class TeachAction {
   Node& node_;
   std::atomic<bool> capture_{false};
   ros::ServiceServer capture_service_;
+  // A goal and what cancels it come one after the other: a SimpleActionServer forgets a cancel that
+  // another thread handles while the goal is being put down.
+  ros::CallbackQueue queue_;
   actionlib::SimpleActionServer<posevote_msgs::TeachAction> server_;
+  ros::AsyncSpinner spinner_{1, &queue_};
 };
 
 }  // namespace posevote::ros1

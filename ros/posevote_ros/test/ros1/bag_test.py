@@ -5,11 +5,10 @@ import subprocess
 import sys
 import unittest
 
-import actionlib
 import rosbag
 import rospy
 import rostest
-from posevote_msgs.msg import DetectionArray, TeachAction, TeachGoal
+from posevote_msgs.msg import DetectionArray, TeachGoal
 
 import demo
 
@@ -26,12 +25,11 @@ class BagTest(unittest.TestCase):
                       file.read_messages("/camera/image_raw/compressed")}
         self.assertEqual(len(stamps), 16)
 
-        teach = actionlib.SimpleActionClient("/posevote/teach", TeachAction)
-        self.assertTrue(teach.wait_for_server(rospy.Duration(30)))
+        teach = demo.TeachClient()
         poster = demo.image("train/poster/cover.jpg", rospy.Time(1))
         teach.send_goal(TeachGoal(object="poster", method="whole", images=[poster]))
-        self.assertTrue(teach.wait_for_result(rospy.Duration(60)))
-        self.assertTrue(teach.get_result().success, teach.get_result().message)
+        result = teach.wait_for_result()
+        self.assertTrue(result and result.success, result)
 
         detections = demo.Collector("/posevote/detections", DetectionArray)
         subprocess.run(["rosbag", "play", "--delay", "2", bag], check=True,

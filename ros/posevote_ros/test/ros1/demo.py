@@ -2,8 +2,10 @@
 import os
 import threading
 
+import actionlib
 import rospy
 from PIL import Image as Pillow
+from posevote_msgs.msg import TeachAction
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 
 FRAME = "camera_optical"
@@ -66,6 +68,37 @@ class Collector:
 
     def close(self):
         self._subscriber.unregister()
+
+
+class TeachClient:
+    """The action teach. Unlike actionlib's SimpleActionClient it misses nothing that the node
+    answers before send_goal has returned, as a goal that makes no sense is."""
+
+    def __init__(self):
+        self._client = actionlib.ActionClient("/posevote/teach", TeachAction)
+        assert self._client.wait_for_server(rospy.Duration(30))
+
+    def send_goal(self, goal, feedback_cb=None):
+        done = threading.Event()
+
+        def change(handle):
+            if handle.get_comm_state() == actionlib.CommState.DONE:
+                done.set()
+        self._done = done
+        self._handle = self._client.send_goal(
+            goal, change, lambda _, feedback: feedback_cb and feedback_cb(feedback))
+
+    def cancel_goal(self):
+        # Not by the goal's name: a client that has done so takes it for lost when the next status
+        # was sent before the goal came.
+        self._client.cancel_goals_at_and_before_time(rospy.Time.now())
+
+    def wait_for_result(self, timeout_s=60):
+        """The result, or None; then the goal's status can be asked for, too."""
+        return self._handle.get_result() if self._done.wait(timeout_s) else None
+
+    def get_status(self):
+        return self._handle.get_goal_status()
 
 
 def wait_until(condition, timeout_s=60):

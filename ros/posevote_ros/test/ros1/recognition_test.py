@@ -4,14 +4,13 @@ import os
 import sys
 import unittest
 
-import actionlib
 import dynamic_reconfigure.client
 import rospy
 import rostest
 import tf2_ros
 from diagnostic_msgs.msg import DiagnosticArray
 from posevote_msgs import srv
-from posevote_msgs.msg import DatabaseInfo, DetectionArray, TeachAction, TeachGoal
+from posevote_msgs.msg import DatabaseInfo, DetectionArray, TeachGoal
 from sensor_msgs.msg import CameraInfo, Image
 from visualization_msgs.msg import MarkerArray
 
@@ -42,15 +41,15 @@ def teach(client, name, images, background=None, **fields):
     if background:
         goal.background = background
     client.send_goal(goal, feedback_cb=feedback.append)
-    assert client.wait_for_result(rospy.Duration(60))
-    return client.get_result(), feedback
+    result = client.wait_for_result()
+    assert result, "no result"
+    return result, feedback
 
 
 class RecognitionTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.teaching = actionlib.SimpleActionClient(NODE + "teach", TeachAction)
-        assert cls.teaching.wait_for_server(rospy.Duration(30))
+        cls.teaching = demo.TeachClient()
 
     def setUp(self):
         self.images = rospy.Publisher(CAMERA, Image, queue_size=1)

@@ -23,7 +23,8 @@ class Services;
 class TeachAction;
 
 /// Threads: `receive` in a spinner's, which only hands the newest picture on; recognition in the
-/// worker's; services and timers in other spinners'. Needs at least two of the latter.
+/// worker's; services and timers in other spinners'; goals of the action in one of their own. Needs
+/// at least two spinners.
 class Node {
  public:
   /// Throws Error when the database or a parameter cannot be used.

@@ -6,7 +6,9 @@ import sys
 import unittest
 
 import rosbag
+import rosnode
 import rospy
+import rosservice
 import rostest
 from posevote_msgs.msg import DetectionArray, TeachGoal
 
@@ -40,6 +42,17 @@ class BagTest(unittest.TestCase):
         self.assertTrue(set(m.header.stamp for m in detections.messages) <= stamps)
         names = {d.object for m in detections.messages for d in m.detections}
         self.assertEqual(names, {"poster"})
+
+    def test_unloads_while_it_teaches(self):  # the last one: the nodelet is gone then
+        steps = []
+        teach = demo.TeachClient()
+        teach.send_goal(TeachGoal(object="mug", timeout_s=120),
+                        feedback_cb=lambda f: steps.append(f.step))
+        self.assertTrue(demo.wait_until(lambda: steps))
+        self.assertIn("/posevote/detect", rosservice.get_service_list())
+        rosnode.kill_nodes(["/posevote"])  # its loader, which has the manager unload it
+        self.assertTrue(demo.wait_until(
+            lambda: "/posevote/detect" not in rosservice.get_service_list(), 40))
 
 
 if __name__ == "__main__":

@@ -25,12 +25,6 @@ std::string whole(double value) {
   return fixed(value, 0);
 }
 
-std::string name_of(const Detection& detection) {
-  std::string names = detection.object;
-  for (const std::string& other : detection.alternatives) names += " or " + other;
-  return names;
-}
-
 std::string place_of(const cv::Rect2f& box) {
   return whole(box.x) + ", " + whole(box.y) + ", " + whole(box.width) + " x " + whole(box.height);
 }
@@ -60,7 +54,7 @@ std::string picture_table(const std::string& path, const RecognitionResult& resu
   Table found;
   found.header = {"object", "sure", "confidence", "inliers", "where (x, y, size)", "view"};
   for (const Detection& detection : result.detections)
-    found.rows.push_back({name_of(detection), detection.probability > 0 ? sureness(detection) : "",
+    found.rows.push_back({names_of(detection), detection.probability > 0 ? sureness(detection) : "",
                           percent(detection.confidence, 0), std::to_string(detection.inliers),
                           place_of(detection.box), detection.view});
   for (const UnknownRegion& region : result.unknown)
@@ -87,7 +81,7 @@ std::string frame_line(const Moment& moment, const RecognitionResult& result) {
   line += result.incomplete ? " (out of time):" : ":";
   if (result.detections.empty()) line += " nothing";
   for (const Detection& detection : result.detections)
-    line += "  " + name_of(detection) + " " + sureness(detection) + " at " +
+    line += "  " + names_of(detection) + " " + sureness(detection) + " at " +
             place_of(detection.box) + ";";
   return line + "\n";
 }

@@ -36,7 +36,7 @@ TeachAction::TeachAction(ros::NodeHandle private_nh, Node& node)
 }
 
 TeachAction::~TeachAction() {
-  is_ending_ = true;  // a nodelet may be unloaded while it teaches
+  stopped_ = true;  // a nodelet may be unloaded while it teaches
   spinner_.stop();
   server_.shutdown();
 }

@@ -28,11 +28,11 @@ class TeachAction {
   [[nodiscard]] logic::TeachView teach_view(const std::string& object, const std::string& source);
   void report(const logic::TeachProgress& progress, const std_msgs::Header& header);
   [[nodiscard]] bool is_cancelled() {
-    return server_.isPreemptRequested() || is_ending_ || !ros::ok();
+    return server_.isPreemptRequested() || stopped_ || !ros::ok();
   }
 
   Node& node_;
-  std::atomic<bool> capture_{false}, is_ending_{false};
+  std::atomic<bool> capture_{false}, stopped_{false};
   ros::ServiceServer capture_service_;
   // A goal and what cancels it come one after the other: a SimpleActionServer forgets a cancel that
   // another thread handles while the goal is being put down.

@@ -84,6 +84,15 @@ float Coder::encode_taught(const float* row, const float* center, float scale, s
   return std::sqrt(residual);
 }
 
+std::vector<std::uint8_t> Coder::encode_all(const std::vector<const float*>& rows) const {
+  const std::size_t blocks = (rows.size() + kBlockLanes - 1) / kBlockLanes;
+  std::vector<std::uint8_t> codes(blocks * block_bytes(), 128);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    encode_taught(rows[i], nullptr, kUnitScale, &codes[i / kBlockLanes * block_bytes()],
+                  i % kBlockLanes);
+  return codes;
+}
+
 void Coder::decode_taught(const std::uint8_t* block, std::size_t lane, float scale,
                           float* row) const {
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d) {

@@ -37,6 +37,10 @@ class Coder {
   float encode_taught(const float* row, const float* center, float scale, std::uint8_t* block,
                       std::size_t lane) const;
 
+  /// Codes of rows without a centre and with kUnitScale, in blocks as `dots` reads them. Lanes
+  /// beyond the last row hold 0.
+  [[nodiscard]] std::vector<std::uint8_t> encode_all(const std::vector<const float*>& rows) const;
+
   /// What encode_taught wrote without a centre, as floats.
   void decode_taught(const std::uint8_t* block, std::size_t lane, float scale, float* row) const;
 

@@ -121,6 +121,25 @@ TEST(Coder, DecodesWhatItEncoded) {
   for (std::size_t d = 0; d < 6; ++d) EXPECT_NEAR(decoded[d], row[d], 0.5F / kUnitScale + 1e-6F);
 }
 
+TEST(Coder, EncodesAllRowsBlockByBlock) {
+  const Coder coder(6);
+  std::vector<std::vector<float>> rows;
+  std::vector<const float*> pointers;
+  pointers.reserve(kBlockLanes + 1);
+  for (unsigned seed = 0; seed < kBlockLanes + 1; ++seed) rows.push_back(unit_vector(6, seed));
+  for (const auto& row : rows) pointers.push_back(row.data());
+  const auto codes = coder.encode_all(pointers);
+  ASSERT_EQ(codes.size(), 2 * coder.block_bytes());
+  std::vector<float> decoded(6);
+  for (std::size_t i = 0; i < 2 * kBlockLanes; ++i) {
+    coder.decode_taught(&codes[i / kBlockLanes * coder.block_bytes()], i % kBlockLanes, kUnitScale,
+                        decoded.data());
+    for (std::size_t d = 0; d < 6; ++d)
+      EXPECT_NEAR(decoded[d], i < rows.size() ? rows[i][d] : 0, 0.5F / kUnitScale + 1e-6F);
+  }
+  EXPECT_TRUE(coder.encode_all({}).empty());
+}
+
 TEST(ReadRow, GivesFloatsOfHalfFloats) {
   cv::Mat halves;
   cv::Mat(cv::Matx<float, 2, 3>(1, 2, 3, 0.5F, 0.25F, -1)).convertTo(halves, CV_16F);

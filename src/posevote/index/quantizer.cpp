@@ -12,16 +12,6 @@ namespace {
 
 constexpr int kIterations = 8;  // the mean similarity moves by less than 0.1 % afterwards
 
-std::vector<std::uint8_t> encode_centers(const Coder& coder, const std::vector<float>& centers,
-                                         std::size_t count) {
-  const std::size_t blocks = (count + kBlockLanes - 1) / kBlockLanes;
-  std::vector<std::uint8_t> codes(blocks * coder.block_bytes(), 128);
-  for (std::size_t i = 0; i < count; ++i)
-    coder.encode_taught(&centers[i * static_cast<std::size_t>(coder.dimension())], nullptr,
-                        kUnitScale, &codes[i / kBlockLanes * coder.block_bytes()], i % kBlockLanes);
-  return codes;
-}
-
 /// Mean direction of the rows of each list; a list without rows keeps its centre.
 void move_centers(int dimension, const std::vector<std::uint16_t>& lists,
                   const Centers::ReadRow& row, std::vector<float>& centers) {
@@ -80,17 +70,19 @@ Centers Centers::train(const Coder& coder, std::size_t count, std::size_t sample
                        const ReadRow& row, int threads) {
   const auto size = static_cast<std::size_t>(coder.dimension());
   std::vector<float> centers(count * size);
+  std::vector<const float*> rows;
   std::vector<float> buffer;
   for (std::size_t c = 0; c < count; ++c) {
     const float* values = row(c * sample_count / count, buffer);
     std::copy(values, values + size, &centers[c * size]);
+    rows.push_back(&centers[c * size]);
   }
-  Centers result(coder, count, encode_centers(coder, centers, count), kUnitScale);
+  Centers result(coder, count, coder.encode_all(rows), kUnitScale);
   std::vector<std::uint16_t> lists(sample_count);
   for (int i = 0; i < kIterations; ++i) {
     result.assign(coder, sample_count, row, lists.data(), threads);
     move_centers(coder.dimension(), lists, row, centers);
-    result = Centers(coder, count, encode_centers(coder, centers, count), kUnitScale);
+    result = Centers(coder, count, coder.encode_all(rows), kUnitScale);
   }
   result.assign(coder, sample_count, row, lists.data(), threads);
   result.member_scale_ = find_member_scale(coder, result, lists, row);

@@ -39,9 +39,7 @@ Polygon fixed_polygon(const std::vector<cv::Point2f>& outline) {
 }
 
 std::string label_text(const Detection& detection) {
-  std::string names = detection.object;
-  for (const std::string& other : detection.alternatives) names += " or " + other;
-  return names + "  " + sureness(detection);
+  return names_of(detection) + "  " + sureness(detection);
 }
 
 bool is_light(const cv::Scalar& color) {
@@ -133,6 +131,12 @@ class Painter {
 };
 
 }  // namespace
+
+std::string names_of(const Detection& detection) {
+  std::string names = detection.object;
+  for (const std::string& other : detection.alternatives) names += " or " + other;
+  return names;
+}
 
 std::string sureness(const Detection& detection) {
   const double share = detection.probability > 0 ? detection.probability : detection.confidence;

@@ -22,6 +22,9 @@ struct AnnotateOptions {
 [[nodiscard]] cv::Mat annotate(const cv::Mat& image, const RecognitionResult& result,
                                const AnnotateOptions& options = {});
 
+/// The object's name; where it cannot be told from others, "tea or coffee".
+[[nodiscard]] std::string names_of(const Detection& detection);
+
 /// The calibrated probability as people read it, "97 %"; where none was computed, Eq. 11's share.
 /// Nothing is quite certain: at most "> 99 %".
 [[nodiscard]] std::string sureness(const Detection& detection);

@@ -1,6 +1,7 @@
 #include "posevote/verify/scene_context.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "posevote/index/dots.hpp"
 
@@ -10,34 +11,31 @@ SceneRivals::SceneRivals(const ModelSet& models, const Features& scene, int rank
   constexpr int kSample = 1000;  // the strongest; enough to tell common from rare
   const int count = std::min(kSample, static_cast<int>(scene.size()));
   rank_ = static_cast<std::size_t>(std::min(rank, count));
-  const auto blocks = (static_cast<std::size_t>(count) + kBlockLanes - 1) / kBlockLanes;
-  codes_.resize(blocks * coder_.block_bytes());
-  query_.resize(coder_.quads() * 4);
-  products_.resize(blocks * kBlockLanes);
-  positions_.resize(products_.size());
-  for (std::size_t s = 0; s < static_cast<std::size_t>(count); ++s) {
-    rows_.push_back(scene.descriptors.ptr<float>(static_cast<int>(s)));
-    coder_.encode_taught(rows_[s], nullptr, kUnitScale,
-                         &codes_[s / kBlockLanes * coder_.block_bytes()], s % kBlockLanes);
-  }
+  for (int s = 0; s < count; ++s) rows_.push_back(scene.descriptors.ptr<float>(s));
 }
 
 // The nearest few by their codes are measured.
 float SceneRivals::nth_distance(const float* taught) {
   constexpr std::size_t kAtLeast = 4;  // times the rank
+  if (codes_.empty()) {
+    codes_ = coder_.encode_all(rows_);
+    query_.resize(coder_.quads() * 4);
+    products_.resize(codes_.size() / coder_.block_bytes() * kBlockLanes);
+    positions_.resize(products_.size());
+  }
   coder_.encode_query(taught, query_.data());
   dots(codes_.data(), products_.size() / kBlockLanes, coder_.quads(), {{query_.data()}, 1},
        products_.data(), products_.size());
+  std::fill(products_.begin() + static_cast<std::ptrdiff_t>(rows_.size()), products_.end(),
+            std::numeric_limits<std::int16_t>::min());
   const std::int16_t limit =
-      kth_largest(products_.data(), products_.size(), std::min(kAtLeast * rank_, products_.size()));
+      kth_largest(products_.data(), products_.size(), std::min(kAtLeast * rank_, rows_.size()));
   const std::size_t found =
       find_at_least(products_.data(), products_.size(), limit, positions_.data());
   chosen_.clear();
-  for (std::size_t i = 0; i < found; ++i)
-    if (positions_[i] < rows_.size()) chosen_.push_back(rows_[positions_[i]]);
-  if (chosen_.size() < rank_) chosen_ = rows_;  // lanes without a row took their places
-  nearest_.resize(chosen_.size());
-  distances(taught, chosen_.data(), chosen_.size(), static_cast<std::size_t>(coder_.dimension()),
+  for (std::size_t i = 0; i < found; ++i) chosen_.push_back(rows_[positions_[i]]);
+  nearest_.resize(found);
+  distances(taught, chosen_.data(), found, static_cast<std::size_t>(coder_.dimension()),
             nearest_.data());
   const auto nth = nearest_.begin() + static_cast<std::ptrdiff_t>(rank_) - 1;
   std::ranges::nth_element(nearest_, nth);

@@ -33,7 +33,7 @@ class SceneRivals {
   std::vector<const float*> rows_;  ///< descriptors of the scene
   std::size_t rank_;
   Coder coder_;
-  std::vector<std::uint8_t> codes_;            ///< of the rows, as `dots` reads them
+  std::vector<std::uint8_t> codes_;            ///< of the rows; none until they are needed
   std::vector<std::vector<float>> distances_;  ///< by view and feature; negative: not computed yet
   // Buffers.
   std::vector<float> row_, nearest_;

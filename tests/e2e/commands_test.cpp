@@ -48,6 +48,20 @@ TEST_F(Commands, ATaughtPictureIsRecognised) {
   EXPECT_THAT(found(demo("train/poster/cover.jpg")), testing::ElementsAre("poster"));
 }
 
+TEST_F(Commands, TwoCopiesOfATeaAreToldFromItsOtherFlavour) {
+  for (const std::string name : {"tea-mint", "tea-cherry"}) {
+    const std::string folder = demo("train/" + name + "/");
+    const Outcome taught = run({"teach", name, folder + "y000.jpg", folder + "y036.jpg",
+                                "--background", folder + "background.jpg"});
+    ASSERT_EQ(taught.status, 0) << taught.err;
+  }
+  const Outcome outcome = run({"recognize", demo("test/twice.jpg"), "--json"});
+  ASSERT_EQ(outcome.lines().size(), 1U) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("alternatives")));
+  EXPECT_THAT(found(demo("test/twice.jpg")),
+              testing::UnorderedElementsAre("tea-mint", "tea-mint", "tea-cherry"));
+}
+
 TEST_F(Commands, EveryWayToSayWhereTheObjectIsWorks) {
   const std::string view = demo("train/muesli/y000.jpg"), next = demo("train/muesli/y036.jpg");
   EXPECT_EQ(run({"teach", "a", view, next, "--background", demo("train/muesli/background.jpg"),

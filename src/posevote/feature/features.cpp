@@ -48,6 +48,10 @@ void FeatureOptions::describe(OptionList& list) {
   list.group("sift", sift);
 }
 
+std::string default_feature_kind() {
+  return POSEVOTE_WITH_SURF ? "surf" : "sift";
+}
+
 std::string FeatureOptions::signature() const {
   if (kind == "sift") return "rootsift128 1";
   return surf.upright ? "surf64 upright 2" : "surf64 2";

@@ -54,9 +54,12 @@ struct SiftOptions {
   void describe(OptionList& list);
 };
 
+/// "surf", or "sift" in a build without our SURF.
+[[nodiscard]] std::string default_feature_kind();
+
 struct FeatureOptions {
-  std::string kind = "surf";  ///< "surf" or "sift"
-  int max_features = 6000;    ///< keep the strongest N; 0: all
+  std::string kind = default_feature_kind();  ///< "surf" or "sift"
+  int max_features = 6000;                    ///< keep the strongest N; 0: all
   bool more_in_large = true;  ///< SURF: beyond 2 megapixels the limit grows with the picture
   int double_below_px =
       600000;  ///< SURF: smaller pictures are searched from one octave lower; 0: none

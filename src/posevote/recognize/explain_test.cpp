@@ -13,9 +13,6 @@ namespace {
 
 RecognizeOptions options() {
   RecognizeOptions options;
-#if !POSEVOTE_WITH_SURF
-  options.feature.kind = "sift";
-#endif
   return options;
 }
 

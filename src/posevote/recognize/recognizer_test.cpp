@@ -16,9 +16,6 @@ const std::string kData = POSEVOTE_SOURCE_DIR "/data/demo/";
 
 FeatureOptions features() {
   FeatureOptions options;
-#if !POSEVOTE_WITH_SURF
-  options.kind = "sift";
-#endif
   options.max_features = 600;
   return options;
 }

@@ -18,11 +18,14 @@ class Commands : public Program {
  protected:
   /// The names found in a picture.
   std::vector<std::string> found(const std::string& picture) const {
-    const Outcome outcome = run({"recognize", picture, "--json"});
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(outcome.lines().size(), 1U);
+    return names_in(run({"recognize", picture, "--json"}));
+  }
+
+  static std::vector<std::string> names_in(const Outcome& recognized) {
+    EXPECT_EQ(recognized.status, 0) << recognized.err;
+    EXPECT_EQ(recognized.lines().size(), 1U);
     std::vector<std::string> names;
-    const Json line = Json::parse(outcome.lines().at(0));
+    const Json line = Json::parse(recognized.lines().at(0));
     for (const Json& detection : line["detections"]) names.push_back(detection["object"]);
     return names;
   }
@@ -56,9 +59,8 @@ TEST_F(Commands, TwoCopiesOfATeaAreToldFromItsOtherFlavour) {
     ASSERT_EQ(taught.status, 0) << taught.err;
   }
   const Outcome outcome = run({"recognize", demo("test/twice.jpg"), "--json"});
-  ASSERT_EQ(outcome.lines().size(), 1U) << outcome.err;
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("alternatives")));
-  EXPECT_THAT(found(demo("test/twice.jpg")),
+  EXPECT_THAT(names_in(outcome),
               testing::UnorderedElementsAre("tea-mint", "tea-mint", "tea-cherry"));
 }
 
@@ -93,9 +95,9 @@ TEST_F(Commands, TeachingAgainAddsNothingTwice) {
 
 TEST_F(Commands, TeachingLeavesOutViewsThatAddLittleWhenAsked) {
   teach_poster();
-  cv::Mat same;
-  cv::GaussianBlur(poster_, same, cv::Size(), 0.8);
-  const std::string again = write("again.png", same);
+  cv::Mat darker;
+  poster_.convertTo(darker, -1, 0.8);
+  const std::string again = write("again.png", darker);
   const Outcome both =
       run({"teach", "poster", again, demo("train/muesli/y000.jpg"), "--whole", "--skip-redundant"});
   EXPECT_EQ(both.status, 0);

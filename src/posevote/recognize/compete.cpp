@@ -152,11 +152,6 @@ void prefer_best_placed(std::vector<Claim>& claims) {
   }
 }
 
-double log_odds(double probability) {
-  constexpr double kSmallest = 1e-15;
-  return std::log(std::max(probability, kSmallest) / std::max(1 - probability, kSmallest));
-}
-
 /// Two objects that look alike are both found in one place. The one that is much more probably the
 /// thing there - colour, structure and all that was measured - is reported; of two that are equally
 /// probable the parts in which they differ decide, if they are clear. Otherwise both names are
@@ -169,7 +164,7 @@ void settle(Claim& better, const Claim& claim, const SceneContext& scene) {
     return PlacedPatch{entry.view->patch, of.hypothesis.scene_from_view};
   };
   const double surer =
-      log_odds(better.hypothesis.presence.object) - log_odds(claim.hypothesis.presence.object);
+      better.hypothesis.presence.object_log_odds - claim.hypothesis.presence.object_log_odds;
   const double for_better = std::abs(surer) >= kMuchMore
                                 ? surer
                                 : discriminate(placed(better), placed(claim), scene.pyramid);

@@ -80,12 +80,11 @@ void end_at_hypothesis(Explanation& result, const TracedHypothesis& hypothesis) 
                     "verify.min_inliers");
     case HypothesisStage::chance:
       return end_at(result, "chance", hypothesis.reason, "verify.evidence.tolerance");
-    case HypothesisStage::presence:
-      return end_at(result,
-                    hypothesis.detection.presence.object < hypothesis.detection.presence.place
-                        ? "object"
-                        : "place",
+    case HypothesisStage::presence: {
+      const Presence& presence = hypothesis.detection.presence;
+      return end_at(result, presence.object_log_odds < presence.place_log_odds ? "object" : "place",
                     hypothesis.reason, "verify.false_alarms_per_1000_images");
+    }
     case HypothesisStage::accepted:
       return end_at(result, "competition",
                     "another object explains the same part of the picture better", "max_overlap");
@@ -153,9 +152,9 @@ std::vector<std::pair<std::string, std::string>> stages_of(const Explanation& e)
   stages.emplace_back("digits of the number of false alarms",
                       cv::format("%.1f", -e.best->log10_false_alarms));
   if (e.best->probability > 0)
-    stages.emplace_back("how probable",
-                        cv::format("%.0f %% this object, %.0f %% in this place",
-                                   100 * e.best->presence.object, 100 * e.best->presence.place));
+    stages.emplace_back("how probable", cv::format("%.0f %% this object, %.0f %% in this place",
+                                                   100 * e.best->presence.object(),
+                                                   100 * e.best->presence.place()));
   return stages;
 }
 

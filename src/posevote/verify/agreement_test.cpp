@@ -120,7 +120,7 @@ TEST(RatePresence, IsSureOfAnObjectThatAgreesInEveryWay) {
 
 TEST(RatePresence, DoubtsASharedLogoOnAnotherThing) {
   const PresenceEvidence logo{25, 0.03, 0.05, 0.05, {0.15, 0.8, 0.25, 0.4, 1}};
-  EXPECT_LT(rate_presence(logo).object, 0.5);
+  EXPECT_LT(rate_presence(logo).object(), 0.5);
 }
 
 TEST(RatePresence, FallsWithEveryKindOfEvidence) {

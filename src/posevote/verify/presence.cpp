@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace posevote {
 namespace {
@@ -48,18 +49,15 @@ Inputs inputs_of(const PresenceEvidence& evidence) {
           evidence.consensus < 0 ? 1.0 : 0.0};
 }
 
-double evaluate(const Model& model, const Inputs& inputs) {
-  double sum = model.bias;
-  for (int i = 0; i < kInputs; ++i)
-    sum += model.weights[static_cast<std::size_t>(i)] * inputs[static_cast<std::size_t>(i)];
-  return 1 / (1 + std::exp(-sum));
+double log_odds(const Model& model, const Inputs& inputs) {
+  return std::inner_product(inputs.begin(), inputs.end(), model.weights.begin(), model.bias);
 }
 
 }  // namespace
 
 Presence rate_presence(const PresenceEvidence& evidence) {
   const Inputs inputs = inputs_of(evidence);
-  return {evaluate(kObject, inputs), evaluate(kPlace, inputs)};
+  return {log_odds(kObject, inputs), log_odds(kPlace, inputs)};
 }
 
 double least_probability(double false_alarms_per_1000_images) {

@@ -6,6 +6,9 @@
 // says. Two logistic models (Cox 1958) on what was measured of a hypothesis answer those.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "posevote/verify/agreement.hpp"
 
 namespace posevote {
@@ -23,10 +26,18 @@ struct PresenceEvidence {
   double consensus = -1;
 };
 
+/// Two probabilities by the natural logarithms of their odds, which still tell the nearly certain
+/// from the certain.
 struct Presence {
-  double object = 0;  ///< probability that it is this object and no other thing
-  double place = 0;   ///< given that, probability that it is where the pose says
-  [[nodiscard]] double probability() const { return object * place; }
+  double object_log_odds = -kCertain;
+  double place_log_odds = -kCertain;
+  /// Probability that it is this object and no other thing.
+  [[nodiscard]] double object() const { return 1 / (1 + std::exp(-object_log_odds)); }
+  /// Given that, probability that it is where the pose says.
+  [[nodiscard]] double place() const { return 1 / (1 + std::exp(-place_log_odds)); }
+  [[nodiscard]] double probability() const { return object() * place(); }
+
+  static constexpr double kCertain = std::numeric_limits<double>::infinity();
 };
 
 [[nodiscard]] Presence rate_presence(const PresenceEvidence& evidence);

@@ -250,7 +250,7 @@ void rate(Hypothesis& hypothesis, const VerifyOptions& options) {
     hypothesis.stage = HypothesisStage::accepted;
     return;
   }
-  hypothesis.rejected = hypothesis.presence.object < hypothesis.presence.place
+  hypothesis.rejected = hypothesis.presence.object_log_odds < hypothesis.presence.place_log_odds
                             ? "a part of it agrees, but the rest looks like another thing"
                             : "it may be there, but too little agrees to say where";
 }

@@ -53,10 +53,26 @@ test("a telephone's camera teaches", async () => {
   await phone.getByText("“soup” is known").waitFor();
 });
 
+type Watch = typeof globalThis & { contradictions: number };
+
+/// Counts the screen's pictures in which an outline is drawn while the list says that nothing is there.
+function watch_contradictions(): void {
+  const page = globalThis as Watch;
+  page.contradictions = 0;
+  const look = (): void => {
+    if (document.querySelector(".found") && !document.querySelector(".detection")) page.contradictions += 1;
+    requestAnimationFrame(look);
+  };
+  requestAnimationFrame(look);
+}
+
 test("and then shows the server what it sees", async () => {
   await phone.getByRole("button", { name: "Send this device's camera" }).click();
   await phone.locator(".detection", { hasText: "soup" }).waitFor();
+  await phone.locator(".found").waitFor();
+  await phone.evaluate(watch_contradictions);
   await see("train/soup/background.jpg");
   await phone.getByText("Nothing that was taught is in the picture").waitFor();
   expect(await phone.locator(".found").count()).toBe(0);
+  expect(await phone.evaluate(() => (globalThis as Watch).contradictions)).toBe(0);
 });

@@ -1,6 +1,6 @@
 // The newest detections, moved a little with every picture of the screen.
 import type { RefObject } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { result } from "../api/events";
 import type { Detection } from "../api/types";
 import { frames_ahead, glide, move_on, travel, type Seen } from "./smooth";
@@ -14,7 +14,8 @@ export function use_glide(on_screen: RefObject<number>): Detection[] {
   const drawn = useRef<Detection[]>([]);
   const newest = result.value;
   const last = useRef({ seen: kNothing, arrived: 0 });
-  useEffect(() => {
+  // Before the page is painted: the list beside the picture has the newest detections already.
+  useLayoutEffect(() => {
     const now = newest ? { frame: newest.frame ?? -1, detections: newest.detections } : kNothing;
     const before = last.current.seen;
     const begin = performance.now();

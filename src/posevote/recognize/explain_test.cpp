@@ -11,11 +11,6 @@
 namespace posevote {
 namespace {
 
-RecognizeOptions options() {
-  RecognizeOptions options;
-  return options;
-}
-
 /// A picture full of print, another one for each seed.
 cv::Mat printed(int seed, cv::Size size = {220, 220}) {
   cv::Mat picture(size, CV_8UC3, cv::Scalar::all(235));
@@ -36,7 +31,7 @@ std::shared_ptr<const View> taught(const cv::Mat& picture) {
   view->outline = {{0, 0}, {w, 0}, {w, h}, {0, h}};
   view->centre = {w / 2, h / 2};
   view->patch = make_patch(picture, cv::Mat(picture.size(), CV_8U, cv::Scalar(255)));
-  view->features = make_extractor(options().feature)->extract(picture);
+  view->features = make_extractor(RecognizeOptions{}.feature)->extract(picture);
   return view;
 }
 
@@ -44,9 +39,9 @@ class Explain : public testing::Test {
  protected:
   Recognizer recognizer_{
       std::make_shared<ModelSet>(
-          options().feature.signature(),
+          RecognizeOptions{}.feature.signature(),
           std::vector<ObjectModel>{{"card", {taught(printed(1))}}, {"book", {taught(printed(2))}}}),
-      options()};
+      RecognizeOptions{}};
   cv::Mat scene_{480, 640, CV_8UC3, cv::Scalar::all(120)};
 };
 
@@ -98,7 +93,7 @@ TEST_F(Explain, AnObjectOfWhichOnlyAPartLooksRightIsDoubtedForTheRest) {
   cv::Mat other = printed(3);
   printed(1)(cv::Rect(0, 0, 220, 60)).copyTo(other(cv::Rect(0, 0, 220, 60)));
   other.copyTo(scene_(cv::Rect(100, 100, 220, 220)));
-  auto strict = options();
+  RecognizeOptions strict;
   strict.verify.false_alarms_per_1000_images = 1e-3;
   const Recognizer recognizer(recognizer_.models(), strict);
   const Explanation result = explain(recognizer, scene_, "card");
